@@ -1,0 +1,131 @@
+//! US Standard Atmosphere 1976 and the gravity of a round, non-rotating earth.
+
+use crate::params::EarthData;
+use crate::scalar::Scalar;
+
+#[derive(Debug, Clone, Copy)]
+struct Layer {
+    base_m: f64,
+    lapse_k_per_m: f64,
+    temperature_k: f64,
+    pressure_pa: f64,
+    /// g0/(R L), or g0/(R T_b) in a layer of constant temperature.
+    exponent: f64,
+}
+
+/// Air and gravity as functions of the geometric altitude.
+#[derive(Debug, Clone, Copy)]
+pub struct Atmosphere {
+    layers: [Layer; MAX_LAYERS],
+    count: usize,
+    top_m: f64,
+    gas_constant: f64,
+    heat_capacity_ratio: f64,
+    gravity: f64,
+    radius: f64,
+}
+
+/// The standard has seven layers below 84.852 km.
+const MAX_LAYERS: usize = 8;
+
+/// Air at one altitude.
+#[derive(Debug, Clone, Copy)]
+pub struct Air<S> {
+    /// Density, kg/m^3.
+    pub density: S,
+    /// Temperature, K.
+    pub temperature: S,
+    /// Speed of sound, m/s.
+    pub sound_speed: S,
+}
+
+impl Atmosphere {
+    /// Pressures and temperatures of the layers' bases by recursion from sea level
+    /// (US Standard Atmosphere 1976, eqs. 23, 33a and 33b).
+    pub fn new(data: &EarthData) -> Self {
+        let (air, gravity) = (&data.air, data.earth.gravity_m_per_s2.value);
+        let gas_constant = air.gas_constant_j_per_kg_k.value;
+        let mut atmosphere = Self {
+            layers: [Layer {
+                base_m: 0.0,
+                lapse_k_per_m: 0.0,
+                temperature_k: air.sea_level_temperature_k.value,
+                pressure_pa: air.sea_level_pressure_pa.value,
+                exponent: 0.0,
+            }; MAX_LAYERS],
+            count: 0,
+            top_m: air.top_m.value,
+            gas_constant,
+            heat_capacity_ratio: air.heat_capacity_ratio.value,
+            gravity,
+            radius: data.earth.radius_m.value,
+        };
+        let steps = air.layer_base_m.value.iter().zip(&air.layer_lapse_k_per_m.value);
+        for (i, (&base_m, &lapse_k_per_m)) in steps.enumerate().take(MAX_LAYERS) {
+            let (temperature_k, pressure_pa) = match i {
+                0 => (air.sea_level_temperature_k.value, air.sea_level_pressure_pa.value),
+                _ => atmosphere.layers[i - 1].at(base_m),
+            };
+            let per_kelvin = if lapse_k_per_m == 0.0 { temperature_k } else { lapse_k_per_m };
+            atmosphere.layers[i] = Layer {
+                base_m,
+                lapse_k_per_m,
+                temperature_k,
+                pressure_pa,
+                exponent: gravity / (gas_constant * per_kelvin),
+            };
+            atmosphere.count = i + 1;
+        }
+        atmosphere
+    }
+
+    /// Air at the geometric altitude `h` (m). Below sea level and above the last layer the nearest
+    /// edge is taken: an integrator may look there, a flight never gets there.
+    pub fn air<S: Scalar>(&self, h: S) -> Air<S> {
+        let geopotential = h * self.radius / (h + self.radius);
+        let clamped = match geopotential.value() {
+            value if value > self.top_m => S::constant(self.top_m),
+            value if value >= 0.0 => geopotential,
+            _ => S::constant(0.0),
+        };
+        let layer = self.layers[..self.count]
+            .iter()
+            .rev()
+            .find(|layer| layer.base_m <= clamped.value())
+            .unwrap_or(&self.layers[0]);
+        let (temperature, pressure) = layer.at(clamped);
+        Air {
+            density: pressure / (temperature * self.gas_constant),
+            temperature,
+            sound_speed: (temperature * (self.heat_capacity_ratio * self.gas_constant)).sqrt(),
+        }
+    }
+
+    /// g = g0 (R/(R+h))^2, m/s^2, and the distance R+h from the earth's centre, m.
+    #[inline]
+    pub fn gravity<S: Scalar>(&self, h: S) -> (S, S) {
+        let distance = h + self.radius;
+        let ratio = S::constant(self.radius) / distance;
+        (ratio * ratio * self.gravity, distance)
+    }
+
+    /// Gravity at sea level, m/s^2.
+    pub fn sea_level_gravity(&self) -> f64 {
+        self.gravity
+    }
+}
+
+impl Layer {
+    /// Temperature (K) and pressure (Pa) at a geopotential altitude (m).
+    #[inline]
+    fn at<S: Scalar>(&self, geopotential: S) -> (S, S) {
+        let height = geopotential - self.base_m;
+        let temperature = height * self.lapse_k_per_m + self.temperature_k;
+        let pressure = if self.lapse_k_per_m == 0.0 {
+            (height * -self.exponent).exp() * self.pressure_pa
+        } else {
+            (temperature * (1.0 / self.temperature_k)).powf(-self.exponent) * self.pressure_pa
+        };
+        (temperature, pressure)
+    }
+}

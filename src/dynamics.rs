@@ -1,0 +1,193 @@
+//! Flight dynamics: eq. (3) of the paper with its errata applied; x' = f(x, u), y = g(x, u).
+//!
+//! The functions are pure and generic over the number type, so dual numbers give exact
+//! derivatives. The generalised slosh force Q_i of eq. (3) does not appear: the sloshing masses
+//! are unknowns of the eigenproblem, so their force is inside the modes already.
+
+use crate::aero::{Aero, Elastic, ElasticTerm};
+use crate::atmosphere::Atmosphere;
+use crate::modes::{MODES, SLOSH};
+use crate::scalar::Scalar;
+
+/// V, h, gamma, alpha, q.
+pub const RIGID: usize = 5;
+/// Rigid states, then (eta, eta-dot) of the flexible modes, then of the slosh modes.
+pub const STATES: usize = RIGID + 2 * MODES;
+/// delta_e, phi.
+pub const INPUTS: usize = 2;
+/// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
+pub const NOMINAL: [f64; STATES] =
+    [1e3, 1e4, 0.01, 0.01, 0.01, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1];
+
+/// All states; those of modes that a configuration does not have stay zero.
+pub type State<S = f64> = [S; STATES];
+/// Effective elevator deflection (rad) and fuel equivalence ratio.
+pub type Control<S = f64> = [S; INPUTS];
+
+/// The vehicle in one configuration at one fuel level, ready to fly. Per metre of width.
+#[derive(Debug, Clone)]
+pub struct Vehicle {
+    /// Air and gravity.
+    pub atmosphere: Atmosphere,
+    /// Curve fits of the rigid body.
+    pub aero: Aero,
+    /// Elastic terms of the curve fits; modal forces already divided by the modal mass.
+    pub elastic: Elastic,
+    /// Mass, kg/m.
+    pub mass: f64,
+    /// Pitch inertia, kg m^2/m.
+    pub inertia: f64,
+    /// Station of the mass centre, m from the nose.
+    pub mass_centre: f64,
+    /// Number of modes in use: 0, 3 or 5.
+    pub modes: usize,
+    /// Frequencies, rad/s.
+    pub omega: [f64; MODES],
+    /// Modal damping matrix, 1/s: eta-dd + D eta-d + omega^2 eta = N.
+    pub damping: [[f64; MODES]; MODES],
+    /// Sloshing displacement relative to the tank per modal coordinate.
+    pub slosh: [[f64; MODES]; SLOSH],
+    /// Largest elevator deflection (rad) and fuel equivalence ratio.
+    pub limits: Control,
+}
+
+/// Forces on the vehicle, per metre of width.
+#[derive(Debug, Clone, Copy)]
+pub struct Loads<S> {
+    /// Dynamic pressure, Pa.
+    pub qbar: S,
+    /// Mach number.
+    pub mach: S,
+    /// Lift, N/m.
+    pub lift: S,
+    /// Drag, N/m.
+    pub drag: S,
+    /// Thrust, N/m.
+    pub thrust: S,
+    /// Pitching moment about the mass centre, nose up, with the thrust's share, N.
+    pub moment: S,
+    /// Aerodynamic force normal to the body axis, N/m.
+    pub normal: S,
+}
+
+/// What a flight shows beside its states.
+#[derive(Debug, Clone, Copy)]
+pub struct Outputs<S = f64> {
+    /// Forces and flight condition.
+    pub loads: Loads<S>,
+    /// Pitch attitude, rad.
+    pub theta: S,
+    /// Displacement of the sloshing masses in the fore and aft tank, m.
+    pub slosh: [S; SLOSH],
+    /// Normal load factor at the mass centre, g.
+    pub n_z: S,
+}
+
+impl Vehicle {
+    /// Number of states in use: 5, 11 or 15.
+    pub fn states(&self) -> usize {
+        RIGID + 2 * self.modes
+    }
+
+    /// Eq. (4).
+    #[inline]
+    pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
+        let (speed, altitude, alpha) = (x[0], x[1], x[3]);
+        let (delta_e, phi) = (u[0], u[1]);
+        let air = self.atmosphere.air(altitude);
+        let qbar = air.density * speed * speed * 0.5;
+        let force = qbar * self.aero.area;
+        let per_speed = S::constant(1.0) / speed;
+        let elastic = |term: &ElasticTerm| self.elastic_sum(term, x, per_speed);
+
+        let c_l = self.aero.lift.at(alpha, delta_e) + elastic(&self.elastic.lift);
+        let c_d = self.aero.drag.at(alpha, delta_e) + elastic(&self.elastic.drag);
+        let c_m = self.aero.moment.at(alpha, delta_e) + elastic(&self.elastic.moment);
+        let inflow = alpha + elastic(&self.elastic.inflow);
+        let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
+
+        let (sin, cos) = alpha.sin_cos();
+        let c_n = c_l * cos + c_d * sin;
+        let shift = self.mass_centre - self.aero.moment_centre;
+        let thrust = force * c_t;
+        Loads {
+            qbar,
+            mach: speed / air.sound_speed,
+            lift: force * c_l,
+            drag: force * c_d,
+            thrust,
+            moment: thrust * self.aero.thrust_arm + force * (c_m * self.aero.chord + c_n * shift),
+            normal: force * c_n,
+        }
+    }
+
+    /// Sum of an elastic term over the modal coordinates and their rates.
+    #[inline]
+    fn elastic_sum<S: Scalar>(&self, term: &ElasticTerm, x: &State<S>, per_speed: S) -> S {
+        let mut eta = S::constant(0.0);
+        let mut rate = S::constant(0.0);
+        for i in 0..self.modes {
+            eta = eta + x[RIGID + 2 * i] * term.eta[i];
+            rate = rate + x[RIGID + 2 * i + 1] * term.rate[i];
+        }
+        eta + rate * per_speed
+    }
+
+    /// Eq. (3): time derivatives of all states.
+    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> State<S> {
+        let [speed, altitude, gamma, alpha, q, ..] = *x;
+        let loads = self.loads(x, u);
+        let (gravity, distance) = self.atmosphere.gravity(altitude);
+        let (sin_alpha, cos_alpha) = alpha.sin_cos();
+        let (sin_gamma, cos_gamma) = gamma.sin_cos();
+        let per_speed = S::constant(1.0) / speed;
+        let per_mass = 1.0 / self.mass;
+
+        let gamma_dot = (loads.lift + loads.thrust * sin_alpha) * per_speed * per_mass
+            - (gravity * per_speed - speed / distance) * cos_gamma;
+
+        let mut rates = [S::constant(0.0); STATES];
+        rates[0] = (loads.thrust * cos_alpha - loads.drag) * per_mass - gravity * sin_gamma;
+        rates[1] = speed * sin_gamma;
+        rates[2] = gamma_dot;
+        rates[3] = q - gamma_dot;
+        rates[4] = loads.moment * (1.0 / self.inertia);
+
+        let force = loads.qbar * self.aero.area;
+        for i in 0..self.modes {
+            let n = &self.elastic.force[i];
+            let [n_0, n_alpha, n_alpha2] = n.alpha;
+            let generalised = (alpha * n_alpha2 + n_alpha) * alpha
+                + n_0
+                + u[0] * n.delta_e
+                + q * per_speed * n.pitch_rate
+                + self.elastic_sum(&n.elastic, x, per_speed);
+            let mut damping = S::constant(0.0);
+            for k in 0..self.modes {
+                damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
+            }
+            let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
+            rates[eta] = x[eta_dot];
+            rates[eta_dot] =
+                force * generalised - damping - x[eta] * (self.omega[i] * self.omega[i]);
+        }
+        rates
+    }
+
+    /// Everything that is shown beside the states.
+    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Outputs<S> {
+        let loads = self.loads(x, u);
+        let slosh = std::array::from_fn(|tank| {
+            (0..self.modes)
+                .fold(S::constant(0.0), |sum, i| sum + x[RIGID + 2 * i] * self.slosh[tank][i])
+        });
+        let weight = self.mass * self.atmosphere.sea_level_gravity();
+        Outputs { loads, theta: x[2] + x[3], slosh, n_z: loads.normal * (1.0 / weight) }
+    }
+
+    /// Controls cut to what the actuators can do.
+    pub fn saturate(&self, u: Control) -> Control {
+        let [delta_e, phi] = self.limits;
+        [u[0].clamp(-delta_e, delta_e), u[1].clamp(0.0, phi)]
+    }
+}

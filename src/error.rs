@@ -1,0 +1,66 @@
+//! What can go wrong, with the variable, the value and the limit.
+
+/// A failure of the model. The text is what a user reads in the log of a simulation master.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A data file does not hold what the model needs.
+    #[error("{file}: {key}: {problem}")]
+    Data {
+        /// Name of the data file.
+        file: String,
+        /// Key inside the file, with its table: `beam.elements`.
+        key: String,
+        /// What is wrong, with value and limit.
+        problem: String,
+    },
+    /// A variable was given a value that it cannot take.
+    #[error("{variable} = {value} is refused: {expected}")]
+    Value {
+        /// Name of the variable.
+        variable: String,
+        /// The refused value.
+        value: f64,
+        /// What would be accepted.
+        expected: String,
+    },
+    /// No level flight within the limits of vehicle and curve fits.
+    #[error(
+        "no trim at mach0 = {mach}, altitude0 = {altitude_m} m: {limit} \
+         (largest residual {residual:.3e}); choose another flight condition or set trim = false"
+    )]
+    Trim {
+        /// Mach number asked for.
+        mach: f64,
+        /// Altitude asked for, m.
+        altitude_m: f64,
+        /// Largest scaled residual of the trim equations where the search ended.
+        residual: f64,
+        /// The limit that was hit, with the value that broke it.
+        limit: String,
+    },
+    /// The flight left the region in which the curve fits hold, or met the ground.
+    #[error(
+        "{variable} = {value} left its valid range [{min}, {max}] at t = {time_s} s; \
+         the state is the one of that instant"
+    )]
+    Envelope {
+        /// Name of the variable that left its range.
+        variable: &'static str,
+        /// Its value at the last valid instant, in the unit of the variable table.
+        value: f64,
+        /// Lower limit.
+        min: f64,
+        /// Upper limit.
+        max: f64,
+        /// The last valid instant, s.
+        time_s: f64,
+    },
+    /// The integrator cannot hold the tolerance.
+    #[error("no step holds the tolerance {tolerance:.1e} at t = {time_s} s; raise the tolerance")]
+    StepSize {
+        /// Relative tolerance asked for.
+        tolerance: f64,
+        /// Time reached, s.
+        time_s: f64,
+    },
+}

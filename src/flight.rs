@@ -1,0 +1,362 @@
+//! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
+
+use crate::dop853::DOP853;
+use crate::dynamics::{Control, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
+use crate::error::Error;
+use crate::integrate::{Arrival, Integrator, System};
+use crate::modes::FLEXIBLE;
+use crate::trim::{Condition, Trim, trim};
+use crate::vehicle::{AeroSet, Build, Configuration, Data};
+use std::sync::Arc;
+
+/// Meaning of the two inputs. The numbers are those of the FMU's enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InputMode {
+    /// Added to the trim controls.
+    DeviationFromTrim = 1,
+    /// The controls themselves.
+    Absolute = 2,
+}
+
+/// What can be chosen before a flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameters {
+    /// Vehicle and initial flight condition.
+    pub build: Build,
+    /// Start from trimmed flight, or from the values below.
+    pub trim: bool,
+    /// Meaning of the inputs; always absolute without trim.
+    pub input_mode: InputMode,
+    /// Incidence to start from without trim, rad.
+    pub alpha0: f64,
+    /// Pitch rate to start from without trim, rad/s.
+    pub q0: f64,
+    /// Flexible modal coordinates to start from without trim, m at the nose.
+    pub eta0: [f64; FLEXIBLE],
+}
+
+impl Parameters {
+    /// The values that `vehicle.toml` gives.
+    pub fn new(data: &Data) -> Self {
+        let default = &data.vehicle.default;
+        Self {
+            build: Build {
+                configuration: Configuration::SloshBeam,
+                aero: AeroSet::Parker2007,
+                fuel_fraction: default.fuel_fraction.value,
+                slosh_damping: default.slosh_damping.value,
+                slosh_frequency: default.slosh_frequency_rad_per_s.value,
+                condition: Condition {
+                    mach: default.mach.value,
+                    altitude: default.altitude_m.value,
+                    gamma: 0.0,
+                },
+            },
+            trim: true,
+            input_mode: InputMode::DeviationFromTrim,
+            alpha0: 0.0,
+            q0: 0.0,
+            eta0: [0.0; FLEXIBLE],
+        }
+    }
+}
+
+/// Tolerance of a master that asks for none.
+pub const DEFAULT_TOLERANCE: f64 = 1e-8;
+/// First guess of the integrator's step, s: a tenth of a radian of the fastest mode.
+const FIRST_STEP: f64 = 1e-3;
+
+/// All that a flight remembers: plain numbers, enough to restore it elsewhere bit for bit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Snapshot {
+    /// Parameters.
+    pub parameters: Parameters,
+    /// Inputs as they were set.
+    pub inputs: Control,
+    /// State.
+    pub state: State,
+    /// Time, s.
+    pub time: f64,
+    /// Tolerance and step proposal.
+    pub integrator: Integrator,
+    /// Whether the initial state has been computed.
+    pub initialised: bool,
+}
+
+/// What a flight shows at an instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample {
+    /// Outputs.
+    pub outputs: Outputs,
+    /// Time derivatives of the states.
+    pub derivatives: State,
+    /// Controls in effect.
+    pub control: Control,
+}
+
+/// A flight. A failed call leaves it as it was, but for [`Flight::advance`], which stops at the
+/// last valid instant.
+#[derive(Debug, Clone)]
+pub struct Flight {
+    data: Arc<Data>,
+    parameters: Parameters,
+    inputs: Control,
+    time: f64,
+    integrator: Integrator,
+    state: State,
+    /// Vehicle and trim, once initialised.
+    ready: Option<Ready>,
+    /// Derivatives at the current state and controls, if known.
+    slope: Option<State>,
+    /// What is shown, if known.
+    sample: Option<Sample>,
+}
+
+#[derive(Debug, Clone)]
+struct Ready {
+    vehicle: Vehicle,
+    trim: Trim,
+}
+
+/// A vehicle under constant controls.
+struct Held<'a> {
+    vehicle: &'a Vehicle,
+    control: Control,
+}
+
+impl System<STATES> for Held<'_> {
+    fn len(&self) -> usize {
+        self.vehicle.states()
+    }
+    fn derivatives(&self, _: f64, x: &State) -> State {
+        self.vehicle.derivatives(x, &self.control)
+    }
+    fn holds(&self, x: &State) -> bool {
+        outside(self.vehicle, x).is_none()
+    }
+    fn nominal(&self) -> &State {
+        &NOMINAL
+    }
+}
+
+/// A variable of the envelope with its value and limits.
+type Limited = (&'static str, f64, [f64; 2]);
+
+fn limited(vehicle: &Vehicle, x: &State) -> [Limited; 3] {
+    let envelope = &vehicle.aero.envelope;
+    let mach = x[0] / vehicle.atmosphere.air(x[1]).sound_speed;
+    [("h", x[1], envelope.altitude), ("mach", mach, envelope.mach), ("alpha", x[3], envelope.alpha)]
+}
+
+/// The variable that is outside the region where the curve fits hold.
+fn outside(vehicle: &Vehicle, x: &State) -> Option<Limited> {
+    limited(vehicle, x).into_iter().find(|(_, value, [min, max])| !(value >= min && value <= max))
+}
+
+/// The variable that is about to leave that region.
+fn nearest_limit(vehicle: &Vehicle, x: &State) -> Limited {
+    let margin =
+        |&(_, value, [min, max]): &Limited| f64::min(value - min, max - value) / (max - min);
+    let [first, rest @ ..] = limited(vehicle, x);
+    rest.into_iter().fold(first, |a, b| if margin(&b) < margin(&a) { b } else { a })
+}
+
+impl Flight {
+    /// A flight on the ground: default parameters, zero inputs.
+    ///
+    /// # Errors
+    /// [`Error::Data`] if the data are not those of a vehicle.
+    pub fn new() -> Result<Self, Error> {
+        let data = Arc::new(Data::embedded()?);
+        Ok(Self {
+            parameters: Parameters::new(&data),
+            data,
+            inputs: [0.0; 2],
+            time: 0.0,
+            integrator: Integrator::new(DEFAULT_TOLERANCE, FIRST_STEP),
+            state: [0.0; STATES],
+            ready: None,
+            slope: None,
+            sample: None,
+        })
+    }
+
+    /// Parameters.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Changes parameters; the flight has to be initialised again.
+    pub fn change(&mut self, edit: impl FnOnce(&mut Parameters)) {
+        edit(&mut self.parameters);
+        self.ready = None;
+        self.slope = None;
+        self.sample = None;
+    }
+
+    /// Inputs as they were set.
+    pub fn inputs(&self) -> &Control {
+        &self.inputs
+    }
+
+    /// Sets one input: 0 elevator (rad), 1 fuel ratio.
+    pub fn set_input(&mut self, index: usize, value: f64) {
+        if self.inputs[index] != value {
+            self.inputs[index] = value;
+            self.slope = None;
+            self.sample = None;
+        }
+    }
+
+    /// Start time (s) and relative tolerance of the integration.
+    pub fn set_experiment(&mut self, start: f64, tolerance: f64) {
+        self.time = start;
+        self.integrator = Integrator::new(tolerance, FIRST_STEP);
+    }
+
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// State; zeros before initialisation.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Vehicle, once initialised.
+    pub fn vehicle(&self) -> Option<&Vehicle> {
+        self.ready.as_ref().map(|ready| &ready.vehicle)
+    }
+
+    /// Trim, once initialised; without trim, the start values with zero controls.
+    pub fn trim(&self) -> Option<&Trim> {
+        self.ready.as_ref().map(|ready| &ready.trim)
+    }
+
+    /// Builds the vehicle and finds the initial state. Does nothing if that is done already.
+    ///
+    /// # Errors
+    /// [`Error::Trim`] if there is no trim, [`Error::Envelope`] if the start values lie outside the
+    /// region where the curve fits hold.
+    pub fn initialise(&mut self) -> Result<(), Error> {
+        if self.ready.is_some() {
+            return Ok(());
+        }
+        let Parameters { build, trim: trimmed, alpha0, q0, eta0, .. } = self.parameters;
+        let vehicle = Vehicle::new(&self.data, &build)?;
+        let trim = if trimmed {
+            trim(&vehicle, &build.condition)?
+        } else {
+            let mut state = build.condition.start(&vehicle);
+            state[3] = alpha0;
+            state[4] = q0;
+            for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
+                state[RIGID + 2 * i] = eta;
+            }
+            if let Some((variable, value, [min, max])) = outside(&vehicle, &state) {
+                return Err(Error::Envelope { variable, value, min, max, time_s: self.time });
+            }
+            Trim { state, control: [0.0; 2] }
+        };
+        self.state = trim.state;
+        self.ready = Some(Ready { vehicle, trim });
+        Ok(())
+    }
+
+    /// Controls in effect: with the trim where the inputs are deviations, cut to the actuators'
+    /// limits.
+    fn control(&self, ready: &Ready) -> Control {
+        let deviation =
+            self.parameters.trim && self.parameters.input_mode == InputMode::DeviationFromTrim;
+        let base = if deviation { ready.trim.control } else { [0.0; 2] };
+        ready.vehicle.saturate([base[0] + self.inputs[0], base[1] + self.inputs[1]])
+    }
+
+    /// Outputs and derivatives at the current instant, computed once per state and input.
+    ///
+    /// # Errors
+    /// Those of [`Flight::initialise`], if the flight is not initialised yet.
+    pub fn evaluate(&mut self) -> Result<(), Error> {
+        self.initialise()?;
+        if let (None, Some(ready)) = (&self.sample, &self.ready) {
+            let control = self.control(ready);
+            let derivatives = match self.slope {
+                Some(slope) => slope,
+                None => ready.vehicle.derivatives(&self.state, &control),
+            };
+            let outputs = ready.vehicle.outputs(&self.state, &control);
+            self.slope = Some(derivatives);
+            self.sample = Some(Sample { outputs, derivatives, control });
+        }
+        Ok(())
+    }
+
+    /// What was last evaluated, if it still holds.
+    pub fn sample(&self) -> Option<&Sample> {
+        self.sample.as_ref()
+    }
+
+    /// Flies until `end` (s) under constant inputs, exactly.
+    ///
+    /// # Errors
+    /// [`Error::Envelope`] on leaving the region where the curve fits hold: time and state are then
+    /// those of the last valid instant. [`Error::StepSize`] if the tolerance cannot be held.
+    pub fn advance(&mut self, end: f64) -> Result<(), Error> {
+        self.initialise()?;
+        let Some(ready) = &self.ready else { return Ok(()) };
+        let held = Held { vehicle: &ready.vehicle, control: self.control(ready) };
+        let arrival = self.integrator.advance(
+            &DOP853,
+            &held,
+            &mut self.state,
+            [self.time, end],
+            &mut self.slope,
+        );
+        self.sample = None;
+        match arrival {
+            Arrival::Complete => {
+                self.time = end;
+                Ok(())
+            }
+            Arrival::Left(time) => {
+                self.time = time;
+                let (variable, value, [min, max]) = nearest_limit(&ready.vehicle, &self.state);
+                Err(Error::Envelope { variable, value, min, max, time_s: time })
+            }
+            Arrival::Stuck(time) => {
+                self.time = time;
+                Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: time })
+            }
+        }
+    }
+
+    /// All that has to be remembered.
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            parameters: self.parameters,
+            inputs: self.inputs,
+            state: self.state,
+            time: self.time,
+            integrator: self.integrator,
+            initialised: self.ready.is_some(),
+        }
+    }
+
+    /// The flight that a snapshot was taken of, bit for bit.
+    ///
+    /// # Errors
+    /// Those of [`Flight::initialise`].
+    pub fn restore(snapshot: &Snapshot) -> Result<Self, Error> {
+        let mut flight = Self::new()?;
+        flight.parameters = snapshot.parameters;
+        if snapshot.initialised {
+            flight.initialise()?;
+        }
+        flight.inputs = snapshot.inputs;
+        flight.state = snapshot.state;
+        flight.time = snapshot.time;
+        flight.integrator = snapshot.integrator;
+        Ok(flight)
+    }
+}

@@ -1,0 +1,189 @@
+//! Integration of x' = f(t, x) over one interval, landing exactly on its end. Knows no aircraft.
+
+/// What is integrated. States beyond [`System::len`] are left alone.
+pub trait System<const N: usize> {
+    /// Number of states in use, at most `N`.
+    fn len(&self) -> usize;
+    /// f(t, x).
+    fn derivatives(&self, t: f64, x: &[f64; N]) -> [f64; N];
+    /// Whether the model still holds at x; an accepted step never ends where it does not.
+    fn holds(&self, x: &[f64; N]) -> bool;
+    /// Typical size of each state, for the tolerance.
+    fn nominal(&self) -> &[f64; N];
+}
+
+/// How an interval ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Arrival {
+    /// At its end.
+    Complete,
+    /// At the last instant at which the model holds.
+    Left(f64),
+    /// Nowhere: no step holds the tolerance from this instant on.
+    Stuck(f64),
+}
+
+/// An explicit Runge-Kutta method with an error estimate made of two embedded methods.
+pub struct Tableau<const S: usize> {
+    /// Runge-Kutta matrix, strictly lower triangular.
+    pub a: [[f64; S]; S],
+    /// Weights.
+    pub b: [f64; S],
+    /// Abscissae.
+    pub c: [f64; S],
+    /// Weights of the error estimate of the higher embedded order.
+    pub error: [f64; S],
+    /// Weights of a second estimate of lower order, which steadies the first; zeros for none.
+    pub error_low: [f64; S],
+    /// The estimate falls as h to this power.
+    pub error_order: i32,
+}
+
+/// Step control: keeps the proposal for the next step between intervals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Integrator {
+    /// Relative tolerance per step, with respect to |x| + nominal.
+    pub tolerance: f64,
+    /// Proposed length of the next step, s.
+    pub proposal: f64,
+}
+
+/// Aimed share of the tolerance: the next step should pass at the first try.
+const SAFETY: f64 = 0.9;
+/// Largest fall and rise of the step from one to the next (Hairer, Norsett, Wanner, Solving
+/// Ordinary Differential Equations I, 2nd ed., section II.4).
+const FACTORS: [f64; 2] = [0.2, 6.0];
+/// A step this small against the interval (or one second) makes no progress in double precision.
+const SMALLEST: f64 = 1e-13;
+/// The instant at which the model ceases to hold is located to this length, s.
+const EXIT_RESOLUTION: f64 = 1e-9;
+
+impl Integrator {
+    /// A fresh integrator; `proposal` (s) is only a first guess.
+    pub fn new(tolerance: f64, proposal: f64) -> Self {
+        Self { tolerance, proposal }
+    }
+
+    /// Moves `x` from `start` to `end`. `first` holds f(start, x) if the caller knows it; on return
+    /// it holds f at the state reached.
+    ///
+    /// The rest of the interval is cut into equal steps, none longer than the proposal, so no
+    /// sliver is left at its end.
+    pub fn advance<const N: usize, const S: usize>(
+        &mut self,
+        tableau: &Tableau<S>,
+        system: &impl System<N>,
+        x: &mut [f64; N],
+        [start, end]: [f64; 2],
+        first: &mut Option<[f64; N]>,
+    ) -> Arrival {
+        let smallest = SMALLEST * (end - start).max(1.0);
+        let mut t = start;
+        // First instant at which the model is known not to hold.
+        let mut invalid = f64::INFINITY;
+        let mut slope = first.unwrap_or_else(|| system.derivatives(t, x));
+        while t < end {
+            let target = end.min(invalid);
+            let remaining = target - t;
+            let pieces = libm::ceil(remaining / self.proposal).max(1.0);
+            let (mut h, last) = (remaining / pieces, pieces == 1.0);
+            if invalid <= end {
+                if remaining < EXIT_RESOLUTION {
+                    *first = Some(slope);
+                    return Arrival::Left(t);
+                }
+                h = h.min(0.5 * remaining);
+            }
+            if h < smallest && h < remaining {
+                *first = Some(slope);
+                return Arrival::Stuck(t);
+            }
+            let (next, error) = self.step(tableau, system, x, t, h, &slope);
+            let factor = if error > 0.0 {
+                SAFETY * libm::pow(error, -1.0 / f64::from(tableau.error_order))
+            } else {
+                FACTORS[1]
+            };
+            // A NaN from a wild trial state counts as too long a step.
+            if !(error <= 1.0) {
+                self.proposal = h * if factor.is_finite() { factor.max(FACTORS[0]) } else { 0.1 };
+                continue;
+            }
+            if !system.holds(&next) {
+                invalid = t + h;
+                continue;
+            }
+            let wanted = h * factor.clamp(FACTORS[0], FACTORS[1]);
+            // A step cut by the interval's end says nothing against the longer proposal.
+            self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
+            t = if last && invalid > end { end } else { t + h };
+            *x = next;
+            slope = system.derivatives(t, x);
+        }
+        *first = Some(slope);
+        Arrival::Complete
+    }
+
+    /// One trial step: the new state and its error over the tolerance.
+    fn step<const N: usize, const S: usize>(
+        &self,
+        tableau: &Tableau<S>,
+        system: &impl System<N>,
+        x: &[f64; N],
+        t: f64,
+        h: f64,
+        slope: &[f64; N],
+    ) -> ([f64; N], f64) {
+        let n = system.len();
+        let mut stages = [[0.0; N]; S];
+        stages[0] = *slope;
+        for stage in 1..S {
+            let trial = combine(x, &stages, &tableau.a[stage], stage, h, n);
+            stages[stage] = system.derivatives(t + tableau.c[stage] * h, &trial);
+        }
+        let next = combine(x, &stages, &tableau.b, S, h, n);
+
+        let nominal = system.nominal();
+        let (mut high, mut low) = (0.0_f64, 0.0_f64);
+        for i in 0..n {
+            let scale = self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs()));
+            let sum = |weights: &[f64; S]| {
+                (0..S).fold(0.0, |sum, stage| sum + weights[stage] * stages[stage][i])
+            };
+            high = worse(high, h * sum(&tableau.error) / scale);
+            low = worse(low, h * sum(&tableau.error_low) / scale);
+        }
+        if high == 0.0 {
+            return (next, 0.0);
+        }
+        // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
+        (next, high * high / libm::sqrt(high * high + 0.01 * low * low))
+    }
+}
+
+/// Larger of two magnitudes; unlike `f64::max` it keeps a NaN.
+fn worse(largest: f64, value: f64) -> f64 {
+    let magnitude = value.abs();
+    if magnitude > largest || magnitude.is_nan() { magnitude } else { largest }
+}
+
+/// x + h sum_j weights_j stages_j over the first `count` stages.
+#[inline]
+fn combine<const N: usize, const S: usize>(
+    x: &[f64; N],
+    stages: &[[f64; N]; S],
+    weights: &[f64; S],
+    count: usize,
+    h: f64,
+    n: usize,
+) -> [f64; N] {
+    let mut sum = [0.0; N];
+    for (stage, &weight) in stages.iter().zip(weights).take(count) {
+        if weight != 0.0 {
+            for i in 0..n {
+                sum[i] += weight * stage[i];
+            }
+        }
+    }
+    std::array::from_fn(|i| x[i] + h * sum[i])
+}

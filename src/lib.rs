@@ -1,0 +1,32 @@
+//! Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and
+//! sloshing propellant, as a Rust library and as an FMI 2.0 co-simulation FMU.
+//!
+//! | module | what it holds | where it comes from |
+//! |---|---|---|
+//! | [`params`] | the numbers, with unit, source and status | Tables 1-3 and the literature |
+//! | [`atmosphere`] | air and gravity | US Standard Atmosphere 1976 |
+//! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
+//! | [`aero`] | curve fits at run time | eq. (4) |
+//! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
+//! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
+//! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
+//! | [`vehicle`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
+//! | [`variables`] | the one table of what a master sees | |
+//!
+//! The paper: Xu, Huang, Cai, "Flight dynamic analysis of hypersonic vehicle considering
+//! liquid-solid coupling", Trans. Nanjing Univ. Aero. Astro. 32(1), 2015, 81-88.
+
+pub mod aero;
+pub mod atmosphere;
+pub mod dop853;
+pub mod dynamics;
+pub mod error;
+pub mod flight;
+pub mod integrate;
+pub mod linear;
+pub mod modes;
+pub mod params;
+pub mod scalar;
+pub mod trim;
+pub mod variables;
+pub mod vehicle;

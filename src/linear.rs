@@ -1,0 +1,66 @@
+//! Linearisation, poles and transmission zeros (Tables 2 and 3).
+
+use crate::dynamics::{Control, INPUTS, STATES, State, Vehicle};
+use crate::scalar::Dual;
+use nalgebra::{Complex, DMatrix, linalg::balancing};
+
+/// x' = A x + B u, y = C x with y = [V, gamma]; D is zero. Only the states in use.
+#[derive(Debug, Clone)]
+pub struct Linear {
+    /// df/dx, n x n.
+    pub a: DMatrix<f64>,
+    /// df/du, n x 2; u = [delta_e, phi].
+    pub b: DMatrix<f64>,
+    /// dy/dx, 2 x n; y = [V, gamma].
+    pub c: DMatrix<f64>,
+}
+
+const DIRECTIONS: usize = STATES + INPUTS;
+/// Rows of the state that are the outputs V and gamma.
+const OUTPUT_STATES: [usize; 2] = [0, 2];
+
+impl Linear {
+    /// Exact derivatives by dual numbers.
+    pub fn new(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
+        let x: State<Dual<DIRECTIONS>> = std::array::from_fn(|i| Dual::variable(state[i], i));
+        let u: Control<Dual<DIRECTIONS>> =
+            std::array::from_fn(|i| Dual::variable(control[i], STATES + i));
+        let rates = vehicle.derivatives(&x, &u);
+        let n = vehicle.states();
+        Self {
+            a: DMatrix::from_fn(n, n, |row, column| rates[row].eps[column]),
+            b: DMatrix::from_fn(n, INPUTS, |row, column| rates[row].eps[STATES + column]),
+            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| {
+                f64::from(OUTPUT_STATES[row] == column)
+            }),
+        }
+    }
+
+    /// Eigenvalues of A, rad/s, by frequency.
+    pub fn poles(&self) -> Vec<Complex<f64>> {
+        eigenvalues(self.a.clone())
+    }
+
+    /// Transmission zeros from [delta_e, phi] to [V, gamma], rad/s, by frequency: n - 2 of them,
+    /// or none if the controls do not reach both rates.
+    ///
+    /// Both outputs are states y and their rates answer the controls at once (B_y is invertible),
+    /// so holding y at zero fixes u = -B_y^-1 A_yz z, and the zeros are the eigenvalues of the
+    /// zero dynamics A_zz - B_z B_y^-1 A_yz (Isidori, Nonlinear Control Systems, 3rd ed., 4.3).
+    pub fn zeros(&self) -> Vec<Complex<f64>> {
+        let hidden: Vec<usize> =
+            (0..self.a.nrows()).filter(|row| !OUTPUT_STATES.contains(row)).collect();
+        let b_y = self.b.select_rows(&OUTPUT_STATES);
+        let a_yz = self.a.select_rows(&OUTPUT_STATES).select_columns(&hidden);
+        let Some(held) = b_y.lu().solve(&a_yz) else { return Vec::new() };
+        let a_zz = self.a.select_rows(&hidden).select_columns(&hidden);
+        eigenvalues(a_zz - self.b.select_rows(&hidden) * held)
+    }
+}
+
+fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
+    balancing::balance_parlett_reinsch(&mut matrix);
+    let mut values: Vec<_> = matrix.complex_eigenvalues().iter().copied().collect();
+    values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    values
+}

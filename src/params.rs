@@ -1,0 +1,426 @@
+//! The numbers of the vehicle, read from `src/data`: each with value, unit, source and status.
+
+use crate::error::Error;
+use serde::Deserialize;
+
+/// Text of `vehicle.toml`.
+pub const VEHICLE_TOML: &str = include_str!("data/vehicle.toml");
+/// Text of `earth.toml`.
+pub const EARTH_TOML: &str = include_str!("data/earth.toml");
+/// Text of `aero/parker2007.toml`.
+pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
+
+/// How far a number can be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// Printed in the source.
+    Published,
+    /// Published, in other units.
+    Converted,
+    /// Follows from published numbers.
+    Derived,
+    /// Fitted so that published results come out.
+    Identified,
+    /// A plausible choice of ours.
+    Assumed,
+}
+
+/// A number, or a list of numbers, with its origin.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantity<T = f64> {
+    /// The number, in `unit`.
+    pub value: T,
+    /// Unit, as text; agrees with the suffix of the key.
+    pub unit: String,
+    /// Where the number comes from.
+    pub source: String,
+    /// How far it can be trusted.
+    pub status: Status,
+}
+
+/// `vehicle.toml`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VehicleData {
+    /// Outer shape.
+    pub geometry: Geometry,
+    /// Mass per metre of width.
+    pub mass: Mass,
+    /// Bending stiffness and discretisation.
+    pub beam: BeamData,
+    /// Fore and aft tank, in this order.
+    pub tank: [TankData; 2],
+    /// Limits of the controls.
+    pub actuation: Actuation,
+    /// Start values of the parameters.
+    pub default: Defaults,
+}
+
+/// Lengths along the body, from the nose aft.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Geometry {
+    /// Overall length, m.
+    pub length_m: Quantity,
+    /// Length of the fore-body, m.
+    pub fore_body_m: Quantity,
+}
+
+/// Mass of the full vehicle and the propellant's part in it.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mass {
+    /// Mass per length ahead of the joint, kg/m^2.
+    pub fore_beam_kg_per_m2: Quantity,
+    /// Mass per length behind the joint, kg/m^2.
+    pub aft_beam_kg_per_m2: Quantity,
+    /// Station of the joint, m.
+    pub beam_joint_m: Quantity,
+    /// Propellant over take-off mass.
+    pub propellant_fraction: Quantity,
+    /// Part of the propellant that stays in the tanks at `fuel_fraction` 0.
+    pub residual_fraction: Quantity,
+}
+
+/// The free-free beam.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BeamData {
+    /// Number of equal elements.
+    pub elements: Quantity<u32>,
+    /// Stations of the stiffness table, m; first 0, last the length, increasing.
+    pub stiffness_station_m: Quantity<Vec<f64>>,
+    /// Bending stiffness EI at the stations, N m^2 per metre of width; linear between them.
+    pub stiffness_n_m2_per_m: Quantity<Vec<f64>>,
+}
+
+/// One tank.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TankData {
+    /// `fore` or `aft`.
+    pub name: String,
+    /// Middle of the tank, m.
+    pub centre_m: Quantity,
+    /// Extent along the body over which the frozen liquid is spread, m.
+    pub length_m: Quantity,
+    /// Part of the propellant in this tank.
+    pub share: Quantity,
+    /// Length of a bay between baffles along the sloshing motion, m.
+    pub bay_length_m: Quantity,
+    /// Depth of the liquid when full, m.
+    pub depth_full_m: Quantity,
+}
+
+/// Where the controls saturate.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Actuation {
+    /// Largest elevator deflection either way, rad.
+    pub delta_e_limit_rad: Quantity,
+    /// Largest fuel equivalence ratio.
+    pub phi_limit: Quantity,
+}
+
+/// Start values of the parameters.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Defaults {
+    /// Propellant left.
+    pub fuel_fraction: Quantity,
+    /// Damping ratio of the sloshing masses.
+    pub slosh_damping: Quantity,
+    /// Sloshing frequency, rad/s; 0 takes the geometry of the tank.
+    pub slosh_frequency_rad_per_s: Quantity,
+    /// Mach number.
+    pub mach: Quantity,
+    /// Altitude, m.
+    pub altitude_m: Quantity,
+}
+
+/// `earth.toml`.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EarthData {
+    /// Gravity field.
+    pub earth: Earth,
+    /// Standard atmosphere.
+    pub air: AirData,
+}
+
+/// Round, non-rotating earth.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Earth {
+    /// Gravity at sea level, m/s^2.
+    pub gravity_m_per_s2: Quantity,
+    /// Radius, m.
+    pub radius_m: Quantity,
+}
+
+/// US Standard Atmosphere 1976.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AirData {
+    /// Specific gas constant, J/(kg K).
+    pub gas_constant_j_per_kg_k: Quantity,
+    /// Ratio of specific heats.
+    pub heat_capacity_ratio: Quantity,
+    /// Pressure at sea level, Pa.
+    pub sea_level_pressure_pa: Quantity,
+    /// Temperature at sea level, K.
+    pub sea_level_temperature_k: Quantity,
+    /// Geopotential altitude of the layers' lower edges, m.
+    pub layer_base_m: Quantity<Vec<f64>>,
+    /// Temperature gradient in each layer, K/m.
+    pub layer_lapse_k_per_m: Quantity<Vec<f64>>,
+    /// Upper edge of the last layer, m.
+    pub top_m: Quantity,
+}
+
+/// `aero/*.toml`: a coefficient set of eq. (4).
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AeroData {
+    /// Reference lengths.
+    pub reference: Reference,
+    /// Inertia and damping that belong to the set.
+    pub inertia: Inertia,
+    /// C_L.
+    pub lift: PolynomialData,
+    /// C_D.
+    pub drag: PolynomialData,
+    /// C_M about the moment centre, without the thrust.
+    pub moment: PolynomialData,
+    /// C_T without fuel.
+    pub thrust: PolynomialData,
+    /// C_T per fuel equivalence ratio.
+    pub thrust_phi: PolynomialData,
+    /// Where the fits hold.
+    pub envelope: EnvelopeData,
+}
+
+/// Reference lengths and the incidence of the elastic derivatives.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reference {
+    /// Area per metre of width, m.
+    pub area_m2_per_m: Quantity,
+    /// Chord, m.
+    pub chord_m: Quantity,
+    /// Station about which C_M is taken, m from the nose.
+    pub moment_centre_m: Quantity,
+    /// Distance of the thrust line below the mass centre, m.
+    pub thrust_arm_m: Quantity,
+    /// Incidence at which the elastic derivatives are taken, rad.
+    pub elastic_alpha_rad: Quantity,
+}
+
+/// Inertia and damping of a coefficient set.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inertia {
+    /// Pitch inertia of the full vehicle, kg m^2 per metre of width.
+    pub i_yy_kg_m2_per_m: Quantity,
+    /// Damping ratio of the structure.
+    pub structural_damping: Quantity,
+}
+
+/// A polynomial in incidence and elevator deflection; what is not given is zero.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PolynomialData {
+    /// Term without angle.
+    pub constant: Option<Quantity>,
+    /// Per rad of incidence.
+    pub alpha: Option<Quantity>,
+    /// Per rad^2 of incidence.
+    pub alpha2: Option<Quantity>,
+    /// Per rad^3 of incidence.
+    pub alpha3: Option<Quantity>,
+    /// Per rad of elevator deflection.
+    pub delta_e: Option<Quantity>,
+    /// Per rad^2 of elevator deflection.
+    pub delta_e2: Option<Quantity>,
+}
+
+/// Lower and upper limits of validity.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnvelopeData {
+    /// Incidence, rad.
+    pub alpha_rad: Quantity<[f64; 2]>,
+    /// Mach number.
+    pub mach: Quantity<[f64; 2]>,
+    /// Altitude, m.
+    pub altitude_m: Quantity<[f64; 2]>,
+}
+
+fn parse<T: for<'a> Deserialize<'a>>(file: &str, text: &str) -> Result<T, Error> {
+    toml::from_str(text).map_err(|error| Error::Data {
+        file: file.to_string(),
+        key: error
+            .span()
+            .and_then(|span| text.get(..span.start))
+            .map_or_else(String::new, |head| format!("line {}", head.lines().count().max(1))),
+        problem: error.message().to_string(),
+    })
+}
+
+impl VehicleData {
+    /// Reads and checks a vehicle file; `file` is its name for messages.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        data.validate(file)?;
+        Ok(data)
+    }
+
+    fn validate(&self, file: &str) -> Result<(), Error> {
+        let check = |ok: bool, key: &str, problem: String| {
+            if ok {
+                Ok(())
+            } else {
+                Err(Error::Data { file: file.into(), key: key.into(), problem })
+            }
+        };
+        let length = self.geometry.length_m.value;
+        let positive = [
+            ("geometry.length_m", length),
+            ("mass.fore_beam_kg_per_m2", self.mass.fore_beam_kg_per_m2.value),
+            ("mass.aft_beam_kg_per_m2", self.mass.aft_beam_kg_per_m2.value),
+            ("mass.residual_fraction", self.mass.residual_fraction.value),
+            ("actuation.delta_e_limit_rad", self.actuation.delta_e_limit_rad.value),
+            ("actuation.phi_limit", self.actuation.phi_limit.value),
+        ];
+        for (key, value) in positive {
+            check(value > 0.0 && value.is_finite(), key, format!("{value} must be positive"))?;
+        }
+        let inside = [
+            ("geometry.fore_body_m", self.geometry.fore_body_m.value),
+            ("mass.beam_joint_m", self.mass.beam_joint_m.value),
+        ];
+        for (key, value) in inside {
+            check(
+                value > 0.0 && value < length,
+                key,
+                format!("{value} must lie in (0, {length})"),
+            )?;
+        }
+        let fraction = self.mass.propellant_fraction.value;
+        check(
+            fraction > 0.0 && fraction < 1.0,
+            "mass.propellant_fraction",
+            format!("{fraction} must lie in (0, 1)"),
+        )?;
+        let residual = self.mass.residual_fraction.value;
+        check(residual < 1.0, "mass.residual_fraction", format!("{residual} must be below 1"))?;
+        let elements = self.beam.elements.value;
+        check(
+            (8..=20_000).contains(&elements),
+            "beam.elements",
+            format!("{elements} must lie in [8, 20000]"),
+        )?;
+        let stations = &self.beam.stiffness_station_m.value;
+        let stiffness = &self.beam.stiffness_n_m2_per_m.value;
+        check(
+            stations.len() == stiffness.len() && stations.len() >= 2,
+            "beam.stiffness_n_m2_per_m",
+            format!("{} values for {} stations", stiffness.len(), stations.len()),
+        )?;
+        check(
+            stations.windows(2).all(|pair| pair[0] < pair[1])
+                && stations[0] == 0.0
+                && stations[stations.len() - 1] == length,
+            "beam.stiffness_station_m",
+            format!("stations must increase from 0 to {length}"),
+        )?;
+        check(
+            stiffness.iter().all(|&ei| ei > 0.0 && ei.is_finite()),
+            "beam.stiffness_n_m2_per_m",
+            "every stiffness must be positive".into(),
+        )?;
+        for tank in &self.tank {
+            let (centre, half) = (tank.centre_m.value, 0.5 * tank.length_m.value);
+            check(
+                half > 0.0 && centre - half >= 0.0 && centre + half <= length,
+                &format!("tank.{}.centre_m", tank.name),
+                format!(
+                    "the tank from {} to {} must lie in [0, {length}]",
+                    centre - half,
+                    centre + half
+                ),
+            )?;
+            for (key, value) in [
+                ("share", tank.share.value),
+                ("bay_length_m", tank.bay_length_m.value),
+                ("depth_full_m", tank.depth_full_m.value),
+            ] {
+                check(
+                    value > 0.0 && value.is_finite(),
+                    &format!("tank.{}.{key}", tank.name),
+                    format!("{value} must be positive"),
+                )?;
+            }
+        }
+        let shares: f64 = self.tank.iter().map(|tank| tank.share.value).sum();
+        check(
+            (shares - 1.0).abs() < 1e-9,
+            "tank.share",
+            format!("the shares add up to {shares}, must be 1"),
+        )
+    }
+}
+
+impl EarthData {
+    /// Reads the earth and atmosphere data.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        let (bases, lapses) = (&data.air.layer_base_m.value, &data.air.layer_lapse_k_per_m.value);
+        if bases.len() != lapses.len() || bases.is_empty() || !bases.windows(2).all(|b| b[0] < b[1])
+        {
+            return Err(Error::Data {
+                file: file.into(),
+                key: "air.layer_base_m".into(),
+                problem: "the bases must increase, one lapse rate each".into(),
+            });
+        }
+        Ok(data)
+    }
+}
+
+impl AeroData {
+    /// Reads a coefficient set.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        let envelope = &data.envelope;
+        for (key, range) in [
+            ("envelope.alpha_rad", envelope.alpha_rad.value),
+            ("envelope.mach", envelope.mach.value),
+            ("envelope.altitude_m", envelope.altitude_m.value),
+        ] {
+            if !(range[0] < range[1]) {
+                return Err(Error::Data {
+                    file: file.into(),
+                    key: key.into(),
+                    problem: format!("[{}, {}] must increase", range[0], range[1]),
+                });
+            }
+        }
+        for (key, value) in [
+            ("reference.area_m2_per_m", data.reference.area_m2_per_m.value),
+            ("reference.chord_m", data.reference.chord_m.value),
+            ("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(Error::Data {
+                    file: file.into(),
+                    key: key.into(),
+                    problem: format!("{value} must be positive"),
+                });
+            }
+        }
+        Ok(data)
+    }
+}

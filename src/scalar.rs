@@ -1,0 +1,171 @@
+//! The number type of the equations: `f64` to fly, [`Dual`] for exact derivatives.
+//!
+//! Elementary functions come from the `libm` crate, never from the platform, so that every
+//! platform computes the same bits. This is why the dual numbers are ours: the well-known crates
+//! call the platform's functions.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// What the equations ask of a number.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// A constant.
+    fn constant(value: f64) -> Self;
+    /// The value without derivatives.
+    fn value(self) -> f64;
+    /// Sine and cosine.
+    fn sin_cos(self) -> (Self, Self);
+    /// Exponential function.
+    fn exp(self) -> Self;
+    /// Power with a constant exponent, for a positive base.
+    fn powf(self, exponent: f64) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        libm::sincos(self)
+    }
+    #[inline]
+    fn exp(self) -> Self {
+        libm::exp(self)
+    }
+    #[inline]
+    fn powf(self, exponent: f64) -> Self {
+        libm::pow(self, exponent)
+    }
+    #[inline]
+    fn sqrt(self) -> Self {
+        libm::sqrt(self)
+    }
+}
+
+/// A value with its partial derivatives in `N` directions (forward mode).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Dual<const N: usize> {
+    /// Value.
+    pub re: f64,
+    /// Partial derivatives.
+    pub eps: [f64; N],
+}
+
+impl<const N: usize> Dual<N> {
+    /// The independent variable number `direction`.
+    pub fn variable(value: f64, direction: usize) -> Self {
+        let mut eps = [0.0; N];
+        eps[direction] = 1.0;
+        Self { re: value, eps }
+    }
+
+    /// Chain rule: value `re`, outer derivative `slope`.
+    #[inline]
+    fn chain(self, re: f64, slope: f64) -> Self {
+        Self { re, eps: self.eps.map(|e| slope * e) }
+    }
+
+    #[inline]
+    fn combine(self, other: Self, re: f64, left: f64, right: f64) -> Self {
+        Self { re, eps: std::array::from_fn(|i| left * self.eps[i] + right * other.eps[i]) }
+    }
+}
+
+impl<const N: usize> Add for Dual<N> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        self.combine(other, self.re + other.re, 1.0, 1.0)
+    }
+}
+
+impl<const N: usize> Sub for Dual<N> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self.combine(other, self.re - other.re, 1.0, -1.0)
+    }
+}
+
+impl<const N: usize> Mul for Dual<N> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        self.combine(other, self.re * other.re, other.re, self.re)
+    }
+}
+
+impl<const N: usize> Div for Dual<N> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let quotient = self.re / other.re;
+        self.combine(other, quotient, 1.0 / other.re, -quotient / other.re)
+    }
+}
+
+impl<const N: usize> Neg for Dual<N> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.chain(-self.re, -1.0)
+    }
+}
+
+impl<const N: usize> Add<f64> for Dual<N> {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        self.chain(self.re + other, 1.0)
+    }
+}
+
+impl<const N: usize> Sub<f64> for Dual<N> {
+    type Output = Self;
+    fn sub(self, other: f64) -> Self {
+        self.chain(self.re - other, 1.0)
+    }
+}
+
+impl<const N: usize> Mul<f64> for Dual<N> {
+    type Output = Self;
+    fn mul(self, other: f64) -> Self {
+        self.chain(self.re * other, other)
+    }
+}
+
+impl<const N: usize> Scalar for Dual<N> {
+    fn constant(value: f64) -> Self {
+        Self { re: value, eps: [0.0; N] }
+    }
+    fn value(self) -> f64 {
+        self.re
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = libm::sincos(self.re);
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+    fn exp(self) -> Self {
+        let value = libm::exp(self.re);
+        self.chain(value, value)
+    }
+    fn powf(self, exponent: f64) -> Self {
+        let value = libm::pow(self.re, exponent);
+        self.chain(value, exponent * value / self.re)
+    }
+    fn sqrt(self) -> Self {
+        let value = libm::sqrt(self.re);
+        self.chain(value, 0.5 / value)
+    }
+}

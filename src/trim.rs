@@ -1,0 +1,162 @@
+//! Trim: the controls and static deflections of steady flight.
+
+use crate::dynamics::{Control, INPUTS, RIGID, STATES, State, Vehicle};
+use crate::error::Error;
+use crate::modes::MODES;
+use crate::scalar::Dual;
+use nalgebra::{SMatrix, SVector};
+
+/// Flight condition to be held: speed (m/s), altitude (m), flight-path angle (rad).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// Mach number.
+    pub mach: f64,
+    /// Altitude, m.
+    pub altitude: f64,
+    /// Flight-path angle, rad.
+    pub gamma: f64,
+}
+
+/// Steady flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trim {
+    /// State with all accelerations zero.
+    pub state: State,
+    /// Controls that hold it.
+    pub control: Control,
+}
+
+/// alpha, delta_e, phi and the modal coordinates.
+const UNKNOWNS: usize = 3 + MODES;
+/// Newton converges in about five steps; the rest guards against cycling at rounding level.
+const MAX_STEPS: usize = 40;
+/// Scaled residual (accelerations over those of free fall) that counts as steady. Rounding leaves
+/// about 1e-15.
+const STEADY: f64 = 1e-11;
+/// Rows of the state derivative that must vanish, with their size in a free fall (m/s^2, rad/s,
+/// rad/s^2): V, gamma, q.
+const BALANCES: [(usize, f64); 3] = [(0, 10.0), (2, 0.004), (4, 1.0)];
+
+impl Condition {
+    /// State on this condition with everything else zero.
+    pub fn start(&self, vehicle: &Vehicle) -> State {
+        let mut x = [0.0; STATES];
+        x[0] = self.mach * vehicle.atmosphere.air(self.altitude).sound_speed;
+        x[1] = self.altitude;
+        x[2] = self.gamma;
+        x
+    }
+}
+
+fn insert<const N: usize>(x: &mut State<Dual<N>>, u: &mut Control<Dual<N>>, z: &[Dual<N>]) {
+    x[3] = z[0];
+    u[0] = z[1];
+    u[1] = z[2];
+    for i in 0..MODES {
+        x[RIGID + 2 * i] = z[3 + i];
+    }
+}
+
+type Vector = SVector<f64, UNKNOWNS>;
+
+/// Scaled residual of the trim equations and its exact Jacobian.
+fn residual(
+    vehicle: &Vehicle,
+    start: &State,
+    z: &Vector,
+) -> (Vector, SMatrix<f64, UNKNOWNS, UNKNOWNS>) {
+    let variables: [Dual<UNKNOWNS>; UNKNOWNS] = std::array::from_fn(|i| Dual::variable(z[i], i));
+    let mut x = start.map(|value| Dual { re: value, eps: [0.0; UNKNOWNS] });
+    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; INPUTS];
+    insert(&mut x, &mut u, &variables);
+    let rates = vehicle.derivatives(&x, &u);
+
+    let mut value = Vector::zeros();
+    let mut jacobian = SMatrix::identity();
+    let mut put = |row: usize, rate: Dual<UNKNOWNS>, scale: f64| {
+        value[row] = rate.re / scale;
+        for (column, slope) in rate.eps.iter().enumerate() {
+            jacobian[(row, column)] = slope / scale;
+        }
+    };
+    for (row, (state, scale)) in BALANCES.into_iter().enumerate() {
+        put(row, rates[state], scale);
+    }
+    for i in 0..vehicle.modes {
+        put(3 + i, rates[RIGID + 2 * i + 1], vehicle.omega[i] * vehicle.omega[i]);
+    }
+    (value, jacobian)
+}
+
+/// Steady flight at a condition, by Newton's method with exact derivatives.
+///
+/// # Errors
+/// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
+/// of actuators and curve fits holds the condition.
+pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
+    let start = condition.start(vehicle);
+    let mut z = Vector::zeros();
+    let mut best = f64::INFINITY;
+    let mut solution = z;
+    for _ in 0..MAX_STEPS {
+        let (value, jacobian) = residual(vehicle, &start, &z);
+        let size = value.amax();
+        // At rounding level the residual stops falling: that is as steady as numbers can say.
+        if !size.is_finite() || (best < STEADY && size >= best) {
+            break;
+        }
+        if size < best {
+            best = size;
+            solution = z;
+        }
+        let Some(step) = jacobian.lu().solve(&value) else { break };
+        z -= step;
+    }
+
+    let impossible = |limit: String, residual: f64| Error::Trim {
+        mach: condition.mach,
+        altitude_m: condition.altitude,
+        residual,
+        limit,
+    };
+    let envelope = &vehicle.aero.envelope;
+    let [elevator, fuel] = vehicle.limits;
+    let mut limited = solution;
+    let mut hit = None;
+    let unknowns = [
+        ("alpha", envelope.alpha, " rad"),
+        ("delta_e", [-elevator, elevator], " rad"),
+        ("phi", [0.0, fuel], ""),
+    ];
+    for (i, (name, [min, max], unit)) in unknowns.into_iter().enumerate() {
+        if !(solution[i] >= min && solution[i] <= max) {
+            hit.get_or_insert_with(|| {
+                format!("{name} = {:.4}{unit} is beyond [{min:.4}, {max:.4}]", solution[i])
+            });
+            limited[i] = solution[i].clamp(min, max);
+        }
+    }
+    let conditions = [
+        ("mach0", condition.mach, envelope.mach, ""),
+        ("altitude0", condition.altitude, envelope.altitude, " m"),
+    ];
+    for (name, value, [min, max], unit) in conditions {
+        if !(value >= min && value <= max) {
+            hit = Some(format!("{name} = {value}{unit} is beyond [{min}, {max}]"));
+        }
+    }
+    if let Some(limit) = hit {
+        let (value, _) = residual(vehicle, &start, &limited);
+        return Err(impossible(limit, value.amax()));
+    }
+    if !(best < STEADY) {
+        return Err(impossible("the equations have no solution near level flight".into(), best));
+    }
+
+    let mut state = start;
+    state[3] = solution[0];
+    for i in 0..vehicle.modes {
+        state[RIGID + 2 * i] = solution[3 + i];
+    }
+    Ok(Trim { state, control: [solution[1], solution[2]] })
+}
