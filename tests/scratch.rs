@@ -22,3 +22,26 @@ fn scratch() {
         }
     }
 }
+#[test]
+fn modes() {
+    use ahv::variables::find;
+    for c in 1..=3 {
+        let mut f = Flight::new().unwrap();
+        find("configuration").unwrap().set(&mut f, c as f64).unwrap();
+        let t0 = std::time::Instant::now();
+        f.initialise().unwrap();
+        println!("{:?}", t0.elapsed());
+        let t = f.trim().unwrap();
+        let v = f.vehicle().unwrap();
+        println!("{c} {:?}\n{:?} m {} I {} x {}", t, v.omega, v.mass, v.inertia, v.mass_centre);
+        println!("{:?}", v.elastic.lift);
+        let l = Linear::new(f.vehicle().unwrap(), &t.state, &t.control);
+        for p in l.poles() {
+            println!("   {:.6} {:.6}", p.re, p.im)
+        }
+        println!("zeros");
+        for p in l.zeros() {
+            println!("   {:.6} {:.6}", p.re, p.im)
+        }
+    }
+}
