@@ -1,7 +1,7 @@
 //! A step allocates nothing.
 #![allow(missing_docs, unsafe_code)]
 
-mod common;
+mod model;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -31,8 +31,8 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn verif_a_step_with_all_outputs_allocates_nothing() {
-    for configuration in common::CONFIGURATIONS {
-        let mut flight = common::flight(configuration);
+    for configuration in model::CONFIGURATIONS {
+        let mut flight = model::flight(configuration);
         let before = ALLOCATIONS.with(Cell::get);
         assert!(before > 0, "the counter counts");
         for step in 1..=50 {

@@ -2,13 +2,13 @@
 //! the distance they have, so that a change shows.
 #![allow(missing_docs)]
 
-mod common;
+mod model;
 
 use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
 use ahv::trim::trim;
 use ahv::vehicle::Configuration;
-use common::{CONFIGURATIONS, assert_close, build, data, deviation, flight, vehicle};
+use model::{CONFIGURATIONS, assert_close, build, data, deviation, flight, vehicle};
 use nalgebra::Complex;
 
 /// Table 1 is met by identified data, to more digits than it prints.

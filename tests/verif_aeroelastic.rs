@@ -2,7 +2,7 @@
 //! must answer as the rigid body does.
 #![allow(missing_docs)]
 
-mod common;
+mod model;
 
 use ahv::aero::{Aero, Elastic};
 use ahv::aeroelastic::derive;
@@ -10,7 +10,7 @@ use ahv::beam::Beam;
 use ahv::hermite::Shape;
 use ahv::modes::Modes;
 use ahv::vehicle::Configuration;
-use common::{assert_close, build, data, vehicle};
+use model::{assert_close, build, data, vehicle};
 
 /// Sums over 2,000 quadrature points.
 const ROUNDING: f64 = 1e-12;

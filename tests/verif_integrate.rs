@@ -1,13 +1,13 @@
 //! The integrator on problems with known answers, and the vehicle's independence of the step.
 #![allow(missing_docs)]
 
-mod common;
+mod model;
 
 use ahv::dop853::DOP853;
 use ahv::dynamics::{NOMINAL, STATES, State};
 use ahv::flight::Flight;
 use ahv::integrate::{Arrival, Integrator, System};
-use common::{CONFIGURATIONS, deviation, flight};
+use model::{CONFIGURATIONS, deviation, flight};
 use proptest::prelude::*;
 use std::cell::Cell;
 
