@@ -357,6 +357,7 @@ mod tests {
 
     #[test]
     fn rounding_noise_is_not_blown_up() {
-        assert_eq!(range([1.0, 1.0 + 1e-15].into_iter(), 0.5), [0.5, 1.5]);
+        let [min, max] = range([1.0, 1.0 + 1e-15].into_iter(), 0.5);
+        assert!(max - min > 0.99);
     }
 }
