@@ -53,9 +53,15 @@ fn tidy_unsafe_code_stays_at_the_boundary() {
 #[test]
 fn tidy_the_library_has_no_clock_no_threads_and_prints_nothing() {
     for (path, text) in sources("src") {
-        for forbidden in
-            ["println!", "print!(", "dbg!", "std::time", "std::thread", "thread_local!", "static mut"]
-        {
+        for forbidden in [
+            "println!",
+            "print!(",
+            "dbg!",
+            "std::time",
+            "std::thread",
+            "thread_local!",
+            "static mut",
+        ] {
             assert!(!code(&text).contains(forbidden), "{}: {forbidden}", path.display());
         }
     }
@@ -65,7 +71,8 @@ fn tidy_the_library_has_no_clock_no_threads_and_prints_nothing() {
 fn tidy_elementary_functions_come_from_one_place() {
     // The platform's functions differ in their last bits.
     for (path, text) in sources("src") {
-        for forbidden in [".sin()", ".cos()", ".tan()", ".exp()", ".ln()", ".powf(", ".tanh()", ".cbrt()"]
+        for forbidden in
+            [".sin()", ".cos()", ".tan()", ".exp()", ".ln()", ".powf(", ".tanh()", ".cbrt()"]
         {
             let allowed = forbidden == ".exp()" || forbidden == ".powf(";
             let generic = allowed && path.ends_with("src/atmosphere.rs");
