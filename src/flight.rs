@@ -125,7 +125,7 @@ struct Held<'a> {
 }
 
 impl System<STATES> for Held<'_> {
-    fn len(&self) -> usize {
+    fn states(&self) -> usize {
         self.vehicle.states()
     }
     fn derivatives(&self, _: f64, x: &State) -> State {

@@ -15,9 +15,12 @@
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
 //! | [`vehicle`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
+//! | [`fmi`] | the FMU's C interface | FMI 2.0.5 |
 //!
 //! The paper: Xu, Huang, Cai, "Flight dynamic analysis of hypersonic vehicle considering
 //! liquid-solid coupling", Trans. Nanjing Univ. Aero. Astro. 32(1), 2015, 81-88.
+
+#![deny(unsafe_code)]
 
 pub mod aero;
 pub mod aeroelastic;
@@ -27,6 +30,7 @@ pub mod dop853;
 pub mod dynamics;
 pub mod error;
 pub mod flight;
+pub mod fmi;
 pub mod hermite;
 pub mod integrate;
 pub mod linear;

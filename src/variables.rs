@@ -119,7 +119,7 @@ const ALPHA: u32 = 1 << 3;
 const Q: u32 = 1 << 4;
 const DELTA_E: u32 = 1 << STATES;
 const PHI: u32 = 1 << (STATES + 1);
-const ETAS: u32 = 0b0101_0101_0100_000;
+const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
 /// What the aerodynamic forces depend on.
@@ -342,17 +342,17 @@ impl Variable {
         self.set.is_some()
     }
 
-    /// Sets a parameter or an input.
+    /// Whether a value would be taken.
     ///
     /// # Errors
-    /// [`Error::Value`] if the value is not finite, out of range, or names no item; the flight is
-    /// then as it was.
-    pub fn set(&self, flight: &mut Flight, value: f64) -> Result<(), Error> {
+    /// [`Error::Value`] if the variable is no input or parameter, or if the value is not finite,
+    /// out of range, or names no item.
+    pub fn check(&self, value: f64) -> Result<(), Error> {
         let refuse =
             |expected: String| Error::Value { variable: self.name.to_string(), value, expected };
-        let Some(set) = self.set else {
+        if !self.settable() {
             return Err(refuse("only inputs and parameters can be set".into()));
-        };
+        }
         if !value.is_finite() {
             return Err(refuse("a finite number is needed".into()));
         }
@@ -361,13 +361,30 @@ impl Variable {
         {
             return Err(refuse(format!("the range is [{min}, {max}]")));
         }
-        if let Kind::Enumeration(_, items) = self.kind
-            && !items.iter().any(|&(_, number, _)| f64::from(number) == value)
-        {
-            let names: Vec<_> = items.iter().map(|(name, n, _)| format!("{n} {name}")).collect();
-            return Err(refuse(format!("choose one of {}", names.join(", "))));
+        match self.kind {
+            Kind::Enumeration(_, items)
+                if !items.iter().any(|&(_, number, _)| f64::from(number) == value) =>
+            {
+                let names: Vec<_> =
+                    items.iter().map(|(name, n, _)| format!("{n} {name}")).collect();
+                Err(refuse(format!("choose one of {}", names.join(", "))))
+            }
+            Kind::Boolean if value != 0.0 && value != 1.0 => {
+                Err(refuse("choose 0 (false) or 1 (true)".into()))
+            }
+            _ => Ok(()),
         }
-        set(flight, value);
+    }
+
+    /// Sets a parameter or an input.
+    ///
+    /// # Errors
+    /// Those of [`Variable::check`]; the flight is then as it was.
+    pub fn set(&self, flight: &mut Flight, value: f64) -> Result<(), Error> {
+        self.check(value)?;
+        if let Some(set) = self.set {
+            set(flight, value);
+        }
         Ok(())
     }
 
