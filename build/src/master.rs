@@ -176,7 +176,13 @@ impl Instance {
     fn check(&self, call: &str, status: c_int) -> Result<()> {
         match status {
             OK | WARNING => Ok(()),
-            _ => Err(anyhow!("{call} returned {}: {}", status_name(status), self.log.last())),
+            _ => {
+                let reason = self.log.last();
+                // The FMU may name the call itself.
+                let reason = reason.strip_prefix(call).unwrap_or(&reason);
+                let reason = reason.trim_start_matches([':', ' ']);
+                Err(anyhow!("{call} returned {}: {reason}", status_name(status)))
+            }
         }
     }
 }

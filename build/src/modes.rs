@@ -68,9 +68,9 @@ pub fn run(options: &Analyse) -> Result<()> {
         "aft slosh",
         "beam energy",
     ])];
-    for i in 0..count {
+    for (i, &omega) in omega.iter().enumerate().take(count) {
         let mut cells = vec![name(i)];
-        cells.extend([omega[i], omega[i] / TAU, modes.modal_mass[i], ratio(i)].map(number));
+        cells.extend([omega, omega / TAU, modes.modal_mass[i], ratio(i)].map(number));
         cells.extend(slosh(i).map(number));
         cells.push(format!("{:.2} %", 100.0 * modes.beam_energy_share[i]));
         rows.push(cells);

@@ -46,6 +46,7 @@ pub const PANELS: [[Panel; 4]; 2] = [
             curves: &[("eta1", "η1"), ("eta2", "η2"), ("eta3", "η3")],
             factor: MILLIMETRES,
             deviation: true,
+            least: 0.5,
             ..PANEL
         },
         Panel {
@@ -53,6 +54,7 @@ pub const PANELS: [[Panel; 4]; 2] = [
             curves: &[("slosh1", "fore"), ("slosh2", "aft")],
             factor: MILLIMETRES,
             deviation: true,
+            least: 0.5,
             ..PANEL
         },
         Panel {

@@ -213,9 +213,10 @@ fn range(values: impl Iterator<Item = f64> + Clone, least: f64) -> [f64; 2] {
     [middle - half, middle + half]
 }
 
-/// Decimals that tell apart the labels over a range.
+/// Decimals that tell apart the labels over a range. Their distance is the next of 1, 2, 5 times a
+/// power of ten, so one of 0.5 or more to its power of ten needs no further decimal.
 fn decimals(range: f64) -> usize {
-    (-(range / LABELS as f64).log10()).ceil().clamp(0.0, 6.0) as usize
+    (-(2.0 * range / LABELS as f64).log10().floor()).clamp(0.0, 6.0) as usize
 }
 
 /// A number on an axis; what rounds to zero has no sign.
@@ -234,6 +235,8 @@ mod tests {
     #[test]
     fn labels_on_an_axis_are_short() {
         assert_eq!(decimals(0.015), 3);
+        assert_eq!(decimals(0.045), 2);
+        assert_eq!(decimals(0.2), 2);
         assert_eq!(decimals(50.0), 0);
         assert_eq!(label(-1e-17, 2), "0.00");
         assert_eq!(label(-0.25, 2), "-0.25");
