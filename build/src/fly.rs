@@ -1,8 +1,9 @@
 //! Flies a manoeuvre with the FMU.
 
 use crate::cli::Fly;
+use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
-use crate::master::{Fmu, Instance, Step, status_name};
+use crate::master::{Instance, Step, status_name};
 use crate::model_description::{Causality, ModelDescription, Variable};
 use crate::record::Record;
 use crate::settings::{self, Setting};
@@ -40,7 +41,7 @@ pub fn run(options: &Fly) -> Result<()> {
         options.input.clone().unwrap_or_else(|| root().join("examples/elevator_doublet.csv"));
     let manoeuvre = Manoeuvre::read(&input, model)?;
 
-    let mut instance = fmu.instantiate()?;
+    let mut instance = Instance::new(&fmu)?;
     for setting in &settings {
         instance
             .set(setting.variable, setting.value)

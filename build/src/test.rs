@@ -97,7 +97,7 @@ fn fmu_tests() -> Result<()> {
     let tests = root().join("tests/fmu");
     check(
         Command::new(python)
-            .args(["-m", "pytest"])
+            .args(["-m", "pytest", "-p", "no:cacheprovider"])
             .arg(tests)
             .current_dir(root())
             .env("AHV_FMU", fmu),
