@@ -247,7 +247,7 @@ impl Instance {
     /// # Errors
     /// [`Failure::Model`] if the flight cannot be rebuilt.
     pub fn set_state(&mut self, state: &FmuState) -> Outcome {
-        self.flight = Flight::restore(&state.flight)?;
+        self.flight.rewind(&state.flight)?;
         self.life = state.life;
         Ok(())
     }
