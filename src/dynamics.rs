@@ -45,6 +45,9 @@ pub struct Vehicle {
     pub omega: [f64; MODES],
     /// Modal damping matrix, 1/s: eta-dd + D eta-d + omega^2 eta = N.
     pub damping: [[f64; MODES]; MODES],
+    /// Modal acceleration by which the tanks' floors carry the liquid's weight, m/s^2: the springs
+    /// of the sloshing masses bear only what deviates from steady flight.
+    pub floor: [f64; MODES],
     /// Sloshing displacement relative to the tank per modal coordinate.
     pub slosh: [[f64; MODES]; SLOSH],
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
@@ -168,8 +171,9 @@ impl Vehicle {
             }
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] =
-                force * generalised - damping - x[eta] * (self.omega[i] * self.omega[i]);
+            rates[eta_dot] = force * generalised + self.floor[i]
+                - damping
+                - x[eta] * (self.omega[i] * self.omega[i]);
         }
         rates
     }

@@ -23,6 +23,17 @@ pub enum Error {
         /// What would be accepted.
         expected: String,
     },
+    /// The eigenmodes of the beam with its sloshing masses were not found.
+    #[error(
+        "only {found} of the {count} lowest modes of the beam were found; \
+         check stiffness, masses and sloshing frequencies"
+    )]
+    Modes {
+        /// Modes asked for.
+        count: usize,
+        /// Modes found.
+        found: usize,
+    },
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
         "no trim at mach0 = {mach}, altitude0 = {altitude_m} m: {limit} \

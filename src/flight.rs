@@ -125,7 +125,7 @@ struct Held<'a> {
 }
 
 impl System<STATES> for Held<'_> {
-    fn len(&self) -> usize {
+    fn states(&self) -> usize {
         self.vehicle.states()
     }
     fn derivatives(&self, _: f64, x: &State) -> State {
@@ -248,7 +248,7 @@ impl Flight {
         let trim = if trimmed {
             trim(&vehicle, &build.condition)?
         } else {
-            let mut state = build.condition.start(&vehicle);
+            let mut state = build.condition.start(&vehicle.atmosphere);
             state[3] = alpha0;
             state[4] = q0;
             for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {

@@ -5,8 +5,11 @@
 //! |---|---|---|
 //! | [`params`] | the numbers, with unit, source and status | Tables 1-3 and the literature |
 //! | [`atmosphere`] | air and gravity | US Standard Atmosphere 1976 |
+//! | [`slosh`] | liquid in the tanks | Fig. 4 |
+//! | [`beam`], [`hermite`] | elements, mass, statics; shapes between the nodes | eqs (1)-(2) |
 //! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
 //! | [`aero`] | curve fits at run time | eq. (4) |
+//! | [`aeroelastic`] | where the elastic terms come from | eq. (4) |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
@@ -20,17 +23,21 @@
 #![deny(unsafe_code)]
 
 pub mod aero;
+pub mod aeroelastic;
 pub mod atmosphere;
+pub mod beam;
 pub mod dop853;
 pub mod dynamics;
 pub mod error;
 pub mod flight;
 pub mod fmi;
+pub mod hermite;
 pub mod integrate;
 pub mod linear;
 pub mod modes;
 pub mod params;
 pub mod scalar;
+pub mod slosh;
 pub mod trim;
 pub mod variables;
 pub mod vehicle;

@@ -1,7 +1,128 @@
-//! stub
+//! Eigenmodes of the beam with its sloshing masses: `K phi = omega^2 M phi`. Table 1 and Fig. 5 of
+//! the paper.
+//!
+//! One eigenproblem over beam *and* sloshing masses: the liquid is inside the modes, and no slosh
+//! force is added in the equations of flight. The two rigid-body modes belong to those equations;
+//! every mode here is M-orthogonal to them, hence carries neither momentum nor angular momentum.
+
+mod jacobi;
+mod krylov;
+
+use crate::beam::{Beam, Oscillator};
+use crate::error::Error;
+use crate::hermite::Shape;
+
 /// Flexible modes kept.
 pub const FLEXIBLE: usize = 3;
-/// Slosh modes kept.
+/// Slosh modes kept: one per tank.
 pub const SLOSH: usize = 2;
-/// All modes kept.
-pub const MODES: usize = 5;
+/// All modes kept. Arrays over the modes hold the flexible ones first, then the slosh modes.
+pub const MODES: usize = FLEXIBLE + SLOSH;
+
+/// The lowest modes. Without sloshing masses the last [`SLOSH`] entries stay 0; for a rigid body,
+/// [`Modes::default`], all do.
+///
+/// Scaling: a flexible mode lifts the nose by 1; in a slosh mode the larger of the two
+/// displacements against the beam is 1.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Modes {
+    /// Number of modes: 0, 3 or 5.
+    pub count: usize,
+    /// Angular frequencies, rad/s; ascending among the flexible and among the slosh modes.
+    pub omega_rad_per_s: [f64; MODES],
+    /// Modal masses `phi^T M phi`, kg/m.
+    pub modal_mass: [f64; MODES],
+    /// Displacement of sloshing mass j against its node in mode i, `[j][i]`.
+    pub slosh_displacement: [[f64; MODES]; SLOSH],
+    /// Share of a mode's strain energy that is in the beam and not in the springs.
+    pub beam_energy_share: [f64; MODES],
+    /// Deflection and slope of the beam, one entry per mode.
+    pub shape: Vec<Shape>,
+}
+
+impl Modes {
+    /// The [`FLEXIBLE`] lowest modes of a beam, and one more for each of up to [`SLOSH`]
+    /// sloshing masses.
+    ///
+    /// The slosh modes are those with the largest share of kinetic energy in the sloshing masses.
+    ///
+    /// # Panics
+    /// With more than [`SLOSH`] oscillators.
+    pub fn solve(beam: &Beam, oscillators: &[Oscillator]) -> Result<Self, Error> {
+        assert!(oscillators.len() <= SLOSH, "a slosh mode for each of {SLOSH} sloshing masses");
+        let count = FLEXIBLE + oscillators.len();
+        let structure = krylov::Structure { beam, oscillators };
+        let pairs = krylov::lowest_modes(&structure, count)?;
+
+        let sloshing_share = |displacement: &[f64]| -> f64 {
+            let masses = &displacement[beam.unknowns()..];
+            masses.iter().zip(oscillators).map(|(w, o)| o.mass * w * w).sum()
+        };
+        let mut order: Vec<usize> = (0..count).collect();
+        // Stable sorts: of equal modes the slower stays first.
+        order.sort_by(|&a, &b| {
+            let share = |i: usize| sloshing_share(&pairs[i].displacement);
+            share(a).total_cmp(&share(b))
+        });
+        order[..FLEXIBLE].sort_unstable();
+        order[FLEXIBLE..].sort_unstable();
+
+        let mut modes = Self { count, ..Self::default() };
+        for (i, pair) in order.into_iter().map(|rank| &pairs[rank]).enumerate() {
+            modes.append(i, pair, &structure);
+        }
+        Ok(modes)
+    }
+
+    fn append(&mut self, i: usize, pair: &krylov::Pair, structure: &krylov::Structure) {
+        let (u, omega2) = (&pair.displacement, 1.0 / pair.flexibility);
+        let masses = &u[structure.beam.unknowns()..];
+        let mut relative = [0.0; SLOSH];
+        for ((relative, w), o) in relative.iter_mut().zip(masses).zip(structure.oscillators) {
+            *relative = w - u[2 * o.node];
+        }
+        let unit = if i < FLEXIBLE {
+            u[0]
+        } else if relative[1].abs() > relative[0].abs() {
+            relative[1]
+        } else {
+            relative[0]
+        };
+        let springs: f64 =
+            structure.oscillators.iter().zip(relative).map(|(o, r)| o.stiffness * r * r).sum();
+        self.omega_rad_per_s[i] = omega2.sqrt();
+        self.modal_mass[i] = 1.0 / (unit * unit);
+        for (row, relative) in self.slosh_displacement.iter_mut().zip(relative) {
+            row[i] = relative / unit;
+        }
+        // The displacement has modal mass 1, so omega^2 is twice the strain energy.
+        self.beam_energy_share[i] = (1.0 - springs / omega2).clamp(0.0, 1.0);
+        let nodal = &u[..structure.beam.unknowns()];
+        self.shape.push(Shape::scaled(nodal, 1.0 / unit));
+    }
+
+    /// Modal damping matrix D of `eta'' + D eta' + omega^2 eta = N / mu`, 1/s.
+    ///
+    /// `D_ik = (1/mu_i) sum_j c_j rel_ji rel_jk + delta_ik 2 zeta omega_i e_i`: the dampers of the
+    /// sloshing masses couple the modes; the structure, with damping ratio `structural_ratio`,
+    /// damps each mode by the share `e_i` of its strain energy that is in the beam.
+    pub fn damping(
+        &self,
+        oscillators: &[Oscillator],
+        structural_ratio: f64,
+    ) -> [[f64; MODES]; MODES] {
+        let mut damping = [[0.0; MODES]; MODES];
+        for (i, row) in damping.iter_mut().enumerate().take(self.count) {
+            for (k, entry) in row.iter_mut().enumerate().take(self.count) {
+                let power: f64 = oscillators
+                    .iter()
+                    .zip(&self.slosh_displacement)
+                    .map(|(oscillator, relative)| oscillator.damping * relative[i] * relative[k])
+                    .sum();
+                *entry = power / self.modal_mass[i];
+            }
+            row[i] += 2.0 * structural_ratio * self.omega_rad_per_s[i] * self.beam_energy_share[i];
+        }
+        damping
+    }
+}

@@ -1,5 +1,6 @@
 //! Trim: the controls and static deflections of steady flight.
 
+use crate::atmosphere::Atmosphere;
 use crate::dynamics::{Control, INPUTS, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::modes::MODES;
@@ -39,9 +40,9 @@ const BALANCES: [(usize, f64); 3] = [(0, 10.0), (2, 0.004), (4, 1.0)];
 
 impl Condition {
     /// State on this condition with everything else zero.
-    pub fn start(&self, vehicle: &Vehicle) -> State {
+    pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
-        x[0] = self.mach * vehicle.atmosphere.air(self.altitude).sound_speed;
+        x[0] = self.mach * atmosphere.air(self.altitude).sound_speed;
         x[1] = self.altitude;
         x[2] = self.gamma;
         x
@@ -94,7 +95,7 @@ fn residual(
 /// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
 /// of actuators and curve fits holds the condition.
 pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
-    let start = condition.start(vehicle);
+    let start = condition.start(&vehicle.atmosphere);
     let mut z = Vector::zeros();
     let mut best = f64::INFINITY;
     let mut solution = z;
@@ -149,7 +150,7 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         let (value, _) = residual(vehicle, &start, &limited);
         return Err(impossible(limit, value.amax()));
     }
-    if !(best < STEADY) {
+    if best.is_nan() || best >= STEADY {
         return Err(impossible("the equations have no solution near level flight".into(), best));
     }
 

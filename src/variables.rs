@@ -119,7 +119,7 @@ const ALPHA: u32 = 1 << 3;
 const Q: u32 = 1 << 4;
 const DELTA_E: u32 = 1 << STATES;
 const PHI: u32 = 1 << (STATES + 1);
-const ETAS: u32 = 0b0101_0101_0100_000;
+const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
 /// What the aerodynamic forces depend on.

@@ -1,11 +1,14 @@
 //! From data and parameters to a vehicle that can fly.
 
-use crate::aero::{Aero, Elastic};
+use crate::aero::Aero;
+use crate::aeroelastic::derive;
 use crate::atmosphere::Atmosphere;
+use crate::beam::{Beam, Oscillator};
 use crate::dynamics::Vehicle;
 use crate::error::Error;
-use crate::modes::{MODES, SLOSH};
+use crate::modes::Modes;
 use crate::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
+use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
 
 /// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
@@ -75,26 +78,75 @@ impl Data {
     }
 }
 
+/// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
+/// steady flight.
+fn effective_gravity(data: &Data, condition: &Condition) -> f64 {
+    let atmosphere = Atmosphere::new(&data.earth);
+    let start = condition.start(&atmosphere);
+    let (gravity, distance) = atmosphere.gravity(start[1]);
+    (gravity - start[0] * start[0] / distance) * libm::cos(start[2])
+}
+
+/// The beam of a configuration with the sloshing masses on it.
+///
+/// # Errors
+/// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
+pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), Error> {
+    if build.configuration != Configuration::SloshBeam {
+        return Ok((Beam::even(&data.vehicle, build.fuel_fraction), Vec::new()));
+    }
+    let settings = SloshSettings {
+        damping_ratio: build.slosh_damping,
+        frequency_rad_per_s: build.slosh_frequency,
+        gravity_m_per_s2: effective_gravity(data, &build.condition),
+    };
+    let tanks = SloshingTank::pair(&data.vehicle, build.fuel_fraction, &settings)?;
+    let beam = Beam::slosh(&data.vehicle, &tanks);
+    let oscillators = tanks.iter().map(|tank| beam.attach(tank)).collect();
+    Ok((beam, oscillators))
+}
+
 impl Vehicle {
     /// Puts a vehicle together.
     ///
+    /// The published inertia is that of the full vehicle; with less propellant it falls as the
+    /// beam's own inertia does.
+    ///
     /// # Errors
-    /// [`Error`] if the modes cannot be found.
+    /// [`Error`] if the tanks give no frequency or the modes cannot be found.
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
         let set = data.aero(build.aero);
-        let atmosphere = Atmosphere::new(&data.earth);
         let aero = Aero::new(set);
+        let (beam, oscillators) = structure(data, build)?;
+        let properties = beam.mass_properties(&oscillators);
+        let full = {
+            let (beam, oscillators) = structure(data, &Build { fuel_fraction: 1.0, ..*build })?;
+            beam.mass_properties(&oscillators)
+        };
+        let modes = match build.configuration {
+            Configuration::Rigid => Modes::default(),
+            _ => Modes::solve(&beam, &oscillators)?,
+        };
+        // A force m g up on each sloshing mass and down on its tank.
+        let gravity = effective_gravity(data, &build.condition);
+        let floor = std::array::from_fn(|i| {
+            let weights = oscillators.iter().zip(&modes.slosh_displacement);
+            let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
+            if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
+        });
+        let fore_body = data.vehicle.geometry.fore_body_m.value;
         Ok(Self {
-            atmosphere,
+            atmosphere: Atmosphere::new(&data.earth),
             aero,
-            elastic: Elastic::default(),
-            mass: 14364.07,
-            inertia: set.inertia.i_yy_kg_m2_per_m.value,
-            mass_centre: aero.moment_centre,
-            modes: 0,
-            omega: [0.0; MODES],
-            damping: [[0.0; MODES]; MODES],
-            slosh: [[0.0; MODES]; SLOSH],
+            elastic: derive(&aero, &beam, &modes, fore_body, properties.centre_m),
+            mass: properties.mass,
+            inertia: set.inertia.i_yy_kg_m2_per_m.value * properties.inertia / full.inertia,
+            mass_centre: properties.centre_m,
+            modes: modes.count,
+            omega: modes.omega_rad_per_s,
+            damping: modes.damping(&oscillators, set.inertia.structural_damping.value),
+            floor,
+            slosh: modes.slosh_displacement,
             limits: [
                 data.vehicle.actuation.delta_e_limit_rad.value,
                 data.vehicle.actuation.phi_limit.value,

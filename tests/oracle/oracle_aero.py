@@ -1,0 +1,120 @@
+"""Atmosphere, gravity, curve fits and the elastic terms of eq. (4), for the test oracle.
+
+SI units, rad, per metre of vehicle width. The functions accept complex arguments, for the
+complex-step derivative; branches look at the real part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from oracle_structure import Beam, Modes
+
+TINY = 1e-30  # complex step
+
+
+def poly(terms: dict[str, float], alpha: Any, delta: Any = 0.0) -> Any:
+    """constant + alpha a + alpha2 a^2 + alpha3 a^3 + delta_e d + delta_e2 d^2 (rad)."""
+    in_alpha = [terms.get(key, 0.0) for key in ("constant", "alpha", "alpha2", "alpha3")]
+    in_delta = terms.get("delta_e", 0.0) * delta + terms.get("delta_e2", 0.0) * delta**2
+    return sum(c * alpha**k for k, c in enumerate(in_alpha)) + in_delta
+
+
+def gravity(data: Any, h: Any) -> Any:
+    """Gravity in m/s^2 at the geometric altitude h in m."""
+    earth = data["earth"]
+    return earth["gravity_m_per_s2"] * (earth["radius_m"] / (earth["radius_m"] + h)) ** 2
+
+
+def atmosphere(data: Any, h: Any) -> tuple[Any, Any]:
+    """Density in kg/m^3 and speed of sound in m/s of the 1976 standard at h in m."""
+    air, earth = data["air"], data["earth"]
+    gas, g0 = air["gas_constant_j_per_kg_k"], earth["gravity_m_per_s2"]
+    height = earth["radius_m"] * h / (earth["radius_m"] + h)
+    p, t = air["sea_level_pressure_pa"], air["sea_level_temperature_k"]
+    bases, lapses = air["layer_base_m"], air["layer_lapse_k_per_m"]
+    for base, lapse, top in zip(bases, lapses, [*bases[1:], np.inf], strict=True):
+        rise = (height if np.real(height) < top else top) - base
+        warm = t + lapse * rise
+        if lapse:
+            p = p * (warm / t) ** (-g0 / (gas * lapse))
+        else:
+            p = p * np.exp(-g0 * rise / (gas * t))
+        t = warm
+        if np.real(height) < top:
+            break
+    return p / (gas * t), np.sqrt(air["heat_capacity_ratio"] * gas * t)
+
+
+class Elastic:
+    """Elastic derivatives of eq. (4), from two strips of the body and the elevator.
+
+    Attributes, per m of eta or, for the rates, per rad of eta_dot/V: cl_eta, cl_rate (and cd, cm,
+    ct). Modal forces per qbar S: n_0, n_alpha, n_alpha2, n_delta, n_eta[i, j], n_rate[i, j], n_q.
+    Also x_e m, strip[power of alpha, strip], strip_slope 1/rad and kappa.
+    """
+
+    def __init__(self, geometry: Any, aero: Any, beam: Beam, modes: Modes) -> None:
+        """Elastic terms for the `geometry` table of the vehicle and one aerodynamic data file."""
+        self.beam, self.modes = beam, modes
+        ref, lift, drag, moment = (aero[k] for k in ("reference", "lift", "drag", "moment"))
+        chord, x_r, a_r = ref["chord_m"], ref["moment_centre_m"], ref["elastic_alpha_rad"]
+        edges = (0.0, geometry["fore_body_m"], geometry["length_m"])
+        lengths = np.diff(edges)
+        arms = (np.add(edges[1:], edges[:-1])) / 2.0 - x_r
+        cl_d, cm_d = lift["delta_e"], moment["delta_e"]
+        x_e = self.x_e = x_r - chord * cm_d / cl_d
+        # Quadratics of the strip loads c_1, c_2: [power of alpha, strip].
+        known = np.array(
+            [[t.get(key, 0.0) for key in ("constant", "alpha", "alpha2")] for t in (lift, moment)]
+        )
+        known[:, 1] -= cl_d, cm_d
+        self.strip = np.linalg.solve(np.array([[1.0, 1.0], -arms / chord]), known).T
+        slope = self.strip_slope = self.strip[1] + 2.0 * a_r * self.strip[2]
+
+        # Quadrature, exact for the polynomials of each element: points, weights / strip length.
+        gauss, weight = np.polynomial.legendre.leggauss(6)
+        every = np.union1d(beam.nodes, edges[1])
+        marks = [every[every <= edges[1]], every[every >= edges[1]]]
+        spots = [((m[1:] + m[:-1])[:, None] + np.diff(m)[:, None] * gauss) / 2.0 for m in marks]
+        parts = [
+            np.diff(m)[:, None] * weight / (2.0 * w) for m, w in zip(marks, lengths, strict=True)
+        ]
+        first = spots[0].size
+        x = np.concatenate([s.ravel() for s in spots] + [[x_e]])
+        mean = np.concatenate([p.ravel() for p in parts] + [[1.0]])
+        w, rate = self.shapes(x)
+        strip_of = np.repeat([0, 1, 2], [first, spots[1].size, 1])
+
+        def applied(loads: Sequence[float]) -> np.ndarray:
+            """Weights of a load: its two strips' values and the elevator's."""
+            return mean * np.asarray(loads)[strip_of]
+
+        local = applied((*slope, cl_d))  # load per unit of local incidence
+        self.cl_eta, self.cl_rate = -local @ rate, -local @ w
+        self.cm_eta, self.cm_rate = local * (x - x_r) @ rate / chord, local * (x - x_r) @ w / chord
+        kappa = (poly(drag, a_r + 1j * TINY) / poly(lift, a_r + 1j * TINY).imag).imag
+        self.kappa = kappa
+        self.cd_eta, self.cd_rate = kappa * self.cl_eta, kappa * self.cl_rate
+        fore = applied((1.0, 0.0, 0.0))
+        self.ct_eta, self.ct_rate = -fore @ rate, -fore @ w
+        self.n_0 = applied((*self.strip[0], 0.0)) @ w
+        self.n_alpha = applied((*self.strip[1], cl_d)) @ w
+        self.n_alpha2 = applied((*self.strip[2], 0.0)) @ w
+        self.n_delta = applied((0.0, 0.0, cl_d)) @ w
+        self.n_eta, self.n_rate = -(w.T * local) @ rate, -(w.T * local) @ w
+        self.n_q = (local * (x - beam.x_cg)) @ w
+
+    def shapes(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mode shapes phi_i(x) and slopes phi_i'(x) in 1/m by the Hermite functions; [x, mode]."""
+        step = self.beam.step
+        e = np.clip((x / step).astype(int), 0, len(self.beam.density) - 1)
+        s = ((x - self.beam.nodes[e]) / step)[:, None]
+        w1, w2 = self.modes.w[e], self.modes.w[e + 1]
+        t1, t2 = self.modes.slope[e] * step, self.modes.slope[e + 1] * step
+        w = w1 + s * (t1 + s * (3 * (w2 - w1) - 2 * t1 - t2 + s * (2 * (w1 - w2) + t1 + t2)))
+        rate = t1 + s * (6 * (w2 - w1) - 4 * t1 - 2 * t2 + s * (6 * (w1 - w2) + 3 * (t1 + t2)))
+        return w, rate / step

@@ -1,0 +1,181 @@
+//! Flight mechanics: trim, kinematics, derivatives, integration.
+#![allow(missing_docs)]
+
+mod model;
+
+use ahv::dynamics::{INPUTS, NOMINAL, STATES, State, Vehicle};
+use ahv::error::Error;
+use ahv::linear::Linear;
+use ahv::scalar::Dual;
+use ahv::trim::{Condition, trim};
+use ahv::vehicle::Configuration;
+use model::{CONFIGURATIONS, build, data, deviation, flight, vehicle};
+use proptest::prelude::*;
+
+/// Accelerations over g that count as none: a few hundred roundings.
+const STEADY: f64 = 1e-13;
+/// Central differences at their best step lose a third of the digits.
+const DIFFERENCES: f64 = 3e-7;
+
+/// A flight away from trim, with every state in motion, inside one layer of the atmosphere.
+fn disturbed(vehicle: &Vehicle, scale: [f64; STATES]) -> State {
+    let start = Condition { mach: 8.2, altitude: 26_500.0, gamma: 0.01 }.start(&vehicle.atmosphere);
+    std::array::from_fn(|i| {
+        if i < vehicle.states() { start[i] + 0.3 * NOMINAL[i] * scale[i] } else { 0.0 }
+    })
+}
+
+#[test]
+fn verif_trim_leaves_no_acceleration() {
+    for configuration in CONFIGURATIONS {
+        for fuel_fraction in [0.0, 0.3, 1.0] {
+            for mach in [7.0, 8.0, 9.0] {
+                let build = ahv::vehicle::Build { fuel_fraction, ..build(configuration) };
+                let vehicle = Vehicle::new(&data(), &build).unwrap();
+                let condition = Condition { mach, ..build.condition };
+                let trimmed = trim(&vehicle, &condition).unwrap();
+                let rates = vehicle.derivatives(&trimmed.state, &trimmed.control);
+                for (i, rate) in rates.into_iter().enumerate() {
+                    // Modal accelerations against omega^2 times the static deflection.
+                    let size = if i < 5 { 10.0 } else { 1e4 };
+                    assert!(
+                        rate.abs() < STEADY * size,
+                        "{configuration:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn verif_a_climb_can_be_trimmed_too() {
+    let vehicle = vehicle(Configuration::SloshBeam);
+    let condition = Condition { mach: 8.0, altitude: 26_000.0, gamma: 0.02 };
+    let trimmed = trim(&vehicle, &condition).unwrap();
+    let rates = vehicle.derivatives(&trimmed.state, &trimmed.control);
+    assert!(deviation(rates[1], trimmed.state[0] * 0.02_f64.sin(), 1.0) < STEADY);
+    assert!(rates[0].abs() < STEADY * 10.0 && rates[2].abs() < STEADY);
+}
+
+#[test]
+fn verif_an_impossible_trim_names_the_limit() {
+    for (mach, altitude, limit) in [(2.0, 25_900.0, "mach0"), (8.0, 60_000.0, "altitude0")] {
+        let condition = Condition { mach, altitude, gamma: 0.0 };
+        let error = trim(&vehicle(Configuration::SloshBeam), &condition).unwrap_err();
+        let Error::Trim { residual, limit: text, .. } = &error else { panic!("{error}") };
+        assert!(text.contains(limit), "{error}");
+        assert!(residual.is_finite() && *residual > 0.0, "{error}");
+    }
+    // Inside the envelope, but the elevator cannot hold the nose up.
+    let thin = Condition { mach: 6.2, altitude: 41_000.0, gamma: 0.0 };
+    let error = trim(&vehicle(Configuration::Rigid), &thin).unwrap_err();
+    assert!(
+        error.to_string().contains("alpha = ") || error.to_string().contains("delta_e = "),
+        "{error}"
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
+
+    #[test]
+    fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform15(-1.0..1.0_f64)) {
+        // alpha' + gamma' = q: the sign missing in the printed eq. (3).
+        for configuration in CONFIGURATIONS {
+            let vehicle = vehicle(configuration);
+            let x = disturbed(&vehicle, scale);
+            let rates = vehicle.derivatives(&x, &[0.1, 0.3]);
+            prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
+            prop_assert!(rates[vehicle.states()..].iter().all(|&rate| rate == 0.0));
+        }
+    }
+
+    #[test]
+    fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform15(-1.0..1.0_f64)) {
+        for configuration in CONFIGURATIONS {
+            let vehicle = vehicle(configuration);
+            let (x, u) = (disturbed(&vehicle, scale), [0.1, 0.3]);
+            let linear = Linear::new(&vehicle, &x, &u);
+            let n = vehicle.states();
+            let step = 1e-3;
+            for column in 0..n + INPUTS {
+                let size = if column < n { NOMINAL[column] } else { 1.0 };
+                let shifted = |sign: f64| {
+                    let (mut x, mut u) = (x, u);
+                    if column < n {
+                        x[column] += sign * step * size;
+                    } else {
+                        u[column - n] += sign * step * size;
+                    }
+                    vehicle.derivatives(&x, &u)
+                };
+                let (one, two) = ((shifted(1.0), shifted(-1.0)), (shifted(2.0), shifted(-2.0)));
+                for row in 0..n {
+                    // Fourth order.
+                    let difference = (8.0 * (one.0[row] - one.1[row]) - (two.0[row] - two.1[row]))
+                        / (12.0 * step * size);
+                    let exact = if column < n { linear.a[(row, column)] } else { linear.b[(row, column - n)] };
+                    // What rounding of f leaves in a difference.
+                    let floor = (one.0[row].abs() + 1e-3) / size;
+                    prop_assert!(
+                        deviation(difference, exact, floor) < DIFFERENCES,
+                        "{configuration:?} ({row}, {column}): {difference} against {exact}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn verif_dual_numbers_carry_the_plain_value() {
+    for configuration in CONFIGURATIONS {
+        let vehicle = vehicle(configuration);
+        let x = disturbed(&vehicle, [0.3; STATES]);
+        let dual = vehicle.derivatives(
+            &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),
+            &[0.1, 0.3].map(|v| Dual { re: v, eps: [0.0] }),
+        );
+        assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3]));
+    }
+}
+
+#[test]
+fn verif_zeros_are_where_the_rosenbrock_matrix_is_singular() {
+    use nalgebra::{Complex, DMatrix};
+    for configuration in CONFIGURATIONS {
+        let flight = flight(configuration);
+        let (vehicle, trim) = (flight.vehicle().unwrap(), flight.trim().unwrap());
+        let linear = Linear::new(vehicle, &trim.state, &trim.control);
+        let n = vehicle.states();
+        let zeros = linear.zeros();
+        assert_eq!(zeros.len(), n - 2);
+        let singular = |s: Complex<f64>| {
+            let mut matrix = DMatrix::<Complex<f64>>::zeros(n + 2, n + 2);
+            for row in 0..n {
+                for column in 0..n {
+                    // Scaled to comparable sizes, so that the smallest singular value says something.
+                    let scale = NOMINAL[column] / NOMINAL[row];
+                    matrix[(row, column)] = Complex::from(linear.a[(row, column)] * scale);
+                }
+                matrix[(row, row)] -= s;
+                for column in 0..2 {
+                    matrix[(row, n + column)] =
+                        Complex::from(linear.b[(row, column)] / NOMINAL[row]);
+                    matrix[(n + column, row)] = Complex::from(linear.c[(column, row)]);
+                }
+            }
+            let values = matrix.singular_values();
+            values.min() / values.max()
+        };
+        for zero in zeros {
+            let here = singular(zero);
+            let beside = singular(zero + Complex::new(0.02, 0.02) * (1.0 + zero.norm()));
+            assert!(
+                here < 1e-9 * beside.max(1e-3),
+                "{configuration:?}: zero {zero}, {here:e}, {beside:e}"
+            );
+        }
+    }
+}
