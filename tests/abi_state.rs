@@ -5,7 +5,7 @@
 mod common;
 
 use ahv::fmi::sys::Status;
-use common::{Api, Random, Slave};
+use common::{Api, Random, Slave, configurations};
 use std::ptr::null_mut;
 
 /// Flies on for a while: bits of all values after each step.
@@ -23,7 +23,11 @@ fn fly(slave: &Slave, from: f64) -> Vec<Vec<u64>> {
 #[test]
 fn a_restored_flight_goes_on_with_the_same_bits_in_any_instance_also_by_way_of_bytes() {
     let api = Api::load();
-    let slave = Slave::flying(&api);
+    configurations().into_iter().for_each(|configuration| go_on(&api, configuration));
+}
+
+fn go_on(api: &Api, configuration: i32) {
+    let slave = Slave::flying_as(api, configuration);
     assert_eq!(slave.set("phi", 0.01), Status::Ok);
     assert_eq!(slave.step(0.0, 0.25), Status::Ok);
     let saved = slave.save();
@@ -33,13 +37,13 @@ fn a_restored_flight_goes_on_with_the_same_bits_in_any_instance_also_by_way_of_b
 
     assert_eq!(slave.load(saved), Status::Ok);
     assert_eq!(fly(&slave, 0.25), expected, "in the same instance");
-    let other = Slave::new(&api);
+    let other = Slave::new(api);
     assert_eq!(other.load(saved), Status::Ok, "into one that was never initialised");
     assert_eq!(fly(&other, 0.25), expected);
     slave.free(saved);
     drop(slave);
 
-    let third = Slave::flying(&api);
+    let third = Slave::flying_as(api, 1);
     assert_eq!(third.set("delta_e", -0.01), Status::Ok);
     assert_eq!(third.step(0.0, 0.7), Status::Ok);
     let (status, state) = third.state_of(&bytes);

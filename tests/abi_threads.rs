@@ -3,15 +3,14 @@
 mod common;
 
 use ahv::fmi::sys::Status;
-use common::{Api, Slave};
+use common::{Api, Slave, configurations};
 use std::thread;
 
 const THREADS: u32 = 8;
-const INSTANCES: u32 = 4;
 
 /// One flight with its own input: bits of all values after each step, interleaved with the others.
 fn flights(api: &Api, seed: u32) -> Vec<Vec<u64>> {
-    let slaves: Vec<_> = (0..INSTANCES).map(|_| Slave::flying(api)).collect();
+    let slaves: Vec<_> = configurations().into_iter().map(|n| Slave::flying_as(api, n)).collect();
     let mut bits = Vec::new();
     for step in 0..10 {
         for (i, slave) in (0..).zip(&slaves) {

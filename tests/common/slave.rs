@@ -53,14 +53,24 @@ impl<'a> Slave<'a> {
 
     /// A rigid vehicle, ready for its first step.
     pub fn flying(api: &'a Api) -> Self {
+        Self::flying_as(api, 1)
+    }
+
+    /// A vehicle of this configuration, ready for its first step.
+    pub fn flying_as(api: &'a Api, configuration: i32) -> Self {
         let slave = Self::new(api);
-        slave.start();
+        slave.start_as(configuration);
         slave
     }
 
-    /// From just instantiated to ready for the first step.
+    /// From just instantiated to ready for the first step, with a rigid vehicle.
     pub fn start(&self) {
-        assert_eq!(self.set_integer("configuration", 1), Status::Ok);
+        self.start_as(1);
+    }
+
+    /// From just instantiated to ready for the first step.
+    pub fn start_as(&self, configuration: i32) {
+        assert_eq!(self.set_integer("configuration", configuration), Status::Ok);
         assert_eq!(self.setup(), Status::Ok);
         assert_eq!(self.enter(), Status::Ok);
         assert_eq!(self.exit(), Status::Ok);
@@ -227,5 +237,13 @@ impl Random {
 
     pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len() as u64) as usize]
+    }
+}
+
+/// Numbers of all items of the enumeration `configuration`.
+pub fn configurations() -> Vec<i32> {
+    match TABLE[reference("configuration") as usize].kind {
+        Kind::Enumeration(_, items) => items.iter().map(|&(_, number, _)| number).collect(),
+        _ => panic!("configuration is no enumeration"),
     }
 }
