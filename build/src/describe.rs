@@ -4,6 +4,7 @@ use crate::cli::Describe;
 use crate::workspace::{read_text, root, shown, write};
 use ahv::dynamics::STATES;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
+use ahv::fmi::log::CATEGORIES;
 use ahv::variables::{self, Dependencies, Kind, Role, TABLE, Unit, Variable};
 use anyhow::{Result, bail};
 use quick_xml::Writer;
@@ -14,13 +15,6 @@ pub const MODEL_IDENTIFIER: &str = "ahv";
 /// Time span that the open-loop instability leaves, and a step that shows the third mode, s.
 const STOP_TIME: f64 = 2.0;
 const STEP_SIZE: f64 = 0.01;
-/// Categories of log messages and what they hold.
-const LOG_CATEGORIES: [(&str, &str); 4] = [
-    ("logStatusWarning", "Remarks on calls that were carried out"),
-    ("logStatusDiscard", "Steps that ended early, with the limit that was hit"),
-    ("logStatusError", "Calls that were refused, with the reason"),
-    ("logStatusFatal", "Failures that leave the instance unusable"),
-];
 
 pub fn run(options: &Describe) -> Result<()> {
     let default = root().join("modelDescription/modelDescription.xml");
@@ -78,9 +72,11 @@ pub fn xml() -> Result<String> {
         xml.parent("UnitDefinitions", &[], unit_definitions)?;
         xml.parent("TypeDefinitions", &[], type_definitions)?;
         xml.parent("LogCategories", &[], |xml| {
-            LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
-                let attributes =
-                    [("name", name.to_string()), ("description", description.to_string())];
+            CATEGORIES.iter().try_for_each(|category| {
+                let attributes = [
+                    ("name", category.name().to_string_lossy().into_owned()),
+                    ("description", category.description().to_string()),
+                ];
                 xml.leaf("Category", &attributes)
             })
         })?;
