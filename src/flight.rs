@@ -280,14 +280,31 @@ impl Flight {
     /// Those of [`Flight::initialise`].
     pub fn restore(snapshot: &Snapshot) -> Result<Self, Error> {
         let mut flight = Self::new()?;
-        flight.parameters = snapshot.parameters;
-        if snapshot.initialised {
-            flight.initialise()?;
-        }
-        flight.inputs = snapshot.inputs;
-        flight.state = snapshot.state;
-        flight.time = snapshot.time;
-        flight.integrator = snapshot.integrator;
+        flight.rewind(snapshot)?;
         Ok(flight)
+    }
+
+    /// Becomes the flight that a snapshot was taken of, bit for bit. A vehicle with the same
+    /// parameters is kept: a master that repeats steps does this often.
+    ///
+    /// # Errors
+    /// Those of [`Flight::initialise`]; the flight is then as it was.
+    pub fn rewind(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let kept = snapshot.initialised && self.parameters == snapshot.parameters;
+        if !(kept && self.ready.is_some()) {
+            let mut flight = self.clone();
+            flight.change(|parameters| *parameters = snapshot.parameters);
+            if snapshot.initialised {
+                flight.initialise()?;
+            }
+            *self = flight;
+        }
+        self.inputs = snapshot.inputs;
+        self.state = snapshot.state;
+        self.time = snapshot.time;
+        self.integrator = snapshot.integrator;
+        self.slope = None;
+        self.sample = None;
+        Ok(())
     }
 }

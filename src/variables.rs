@@ -131,14 +131,14 @@ impl Variable {
         }
     }
 
-    /// Sets a parameter or an input.
+    /// Sets a parameter or an input; minus zero becomes zero, so that equal flights have equal bits.
     ///
     /// # Errors
     /// Those of [`Variable::check`]; the flight is then as it was.
     pub fn set(&self, flight: &mut Flight, value: f64) -> Result<(), Error> {
         self.check(value)?;
         if let Some(set) = self.set {
-            set(flight, value);
+            set(flight, value + 0.0);
         }
         Ok(())
     }
