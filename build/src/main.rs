@@ -1,1 +1,44 @@
-fn main() {}
+//! `cargo ahv`: describes, packages, flies and tests the ahv FMU.
+
+mod cli;
+mod describe;
+mod documentation;
+mod fly;
+mod licenses;
+mod manoeuvre;
+mod master;
+mod model_description;
+mod modes;
+mod package;
+mod plot;
+mod poles;
+mod record;
+mod settings;
+mod table;
+mod test;
+mod trim;
+mod workspace;
+
+use clap::Parser;
+use cli::{Cli, Command};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Describe(options) => describe::run(&options),
+        Command::Package(options) => package::run(&options),
+        Command::Fly(options) => fly::run(&options),
+        Command::Modes(options) => modes::run(&options),
+        Command::Trim(options) => trim::run(&options),
+        Command::Poles(options) => poles::run(&options),
+        Command::Test(options) => test::run(&options),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // `{:#}` puts the causes on the same line: what failed, then why.
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! What can be typed after `cargo ahv`.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Hypersonic vehicle with flexible fuselage and sloshing propellant, as an FMU: describe, package,
+/// fly, analyse, test.
+#[derive(Debug, Parser)]
+#[command(name = "cargo ahv", bin_name = "cargo ahv", version, arg_required_else_help = true)]
+pub struct Cli {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Describe(Describe),
+    Package(Package),
+    Fly(Fly),
+    /// Frequencies, damping and slosh displacements of the kept modes
+    #[command(after_help = MODES_HELP)]
+    Modes(Analyse),
+    /// Trimmed flight: incidence, controls, forces, static deflections
+    #[command(after_help = TRIM_HELP)]
+    Trim(Analyse),
+    Poles(Poles),
+    Test(Test),
+}
+
+/// Write modelDescription/modelDescription.xml from the table of variables
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv describe            write the file
+  cargo ahv describe --check    fail if the committed file is not what would be written")]
+pub struct Describe {
+    /// Compare instead of writing; fail if they differ
+    #[arg(long)]
+    pub check: bool,
+    /// File to write or to compare
+    #[arg(long, value_name = "FILE")]
+    pub file: Option<PathBuf>,
+}
+
+/// Build the library and write the FMU
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv package
+      build for this machine and write target/ahv.fmu
+  cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
+      package libraries that were built elsewhere, for several platforms")]
+pub struct Package {
+    /// FMU to write [default: target/ahv.fmu]
+    #[arg(long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
+    /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
+    /// darwin64
+    #[arg(long, value_name = "PLATFORM=FILE")]
+    pub library: Vec<String>,
+}
+
+/// Fly a manoeuvre with the FMU; write the time history as CSV and as a figure
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Input file: CSV with the header `time,delta_e,phi` or any part of it; time in s, delta_e in rad
+(or `delta_e[deg]` for degrees), phi without unit. A value holds from its time on until the next
+line; before the first line the inputs are zero. With the default input mode both are deviations
+from trim.
+
+Output files: flight.csv (time, all inputs, all outputs; SI units and radians), flight.svg,
+flight.png.
+
+Examples:
+  cargo ahv fly
+  cargo ahv fly --input examples/throttle_step.csv --set configuration=Rigid
+  cargo ahv fly --set mach0=9 --set altitude0=27000 --stop 1
+  cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output /tmp/climb")]
+pub struct Fly {
+    /// Inputs over time [default: examples/elevator_doublet.csv]
+    #[arg(long, value_name = "FILE.csv")]
+    pub input: Option<PathBuf>,
+    /// Directory for the results [default: target/flight]
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Communication step, s [default: that of the FMU]
+    #[arg(long, value_name = "SECONDS")]
+    pub step: Option<f64>,
+    /// Stop time, s [default: that of the FMU]
+    #[arg(long, value_name = "SECONDS")]
+    pub stop: Option<f64>,
+    /// Relative tolerance of the integration [default: that of the FMU]
+    #[arg(long, value_name = "NUMBER")]
+    pub tolerance: Option<f64>,
+    #[command(flatten)]
+    pub set: Set,
+    /// Fly this FMU instead of building one
+    #[arg(long, value_name = "FILE.fmu")]
+    pub fmu: Option<PathBuf>,
+}
+
+/// Parameters given on the command line.
+#[derive(Debug, Args)]
+pub struct Set {
+    /// Set a parameter (may be repeated); enumerations by name or number, reals in the FMU's unit
+    /// or with a unit behind the number: gamma0=1deg
+    #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    pub settings: Vec<String>,
+}
+
+const MODES_HELP: &str = "\
+Examples:
+  cargo ahv modes
+  cargo ahv modes --set fuel_fraction=0.5 --set slosh_damping=0.02
+  cargo ahv modes --set configuration=EvenMassBeam --json";
+const TRIM_HELP: &str = "\
+Examples:
+  cargo ahv trim
+  cargo ahv trim --set configuration=Rigid --set mach0=9
+  cargo ahv trim --set gamma0=1deg --json";
+
+/// Options of the commands that look at the model itself.
+#[derive(Debug, Args)]
+pub struct Analyse {
+    #[command(flatten)]
+    pub set: Set,
+    /// Print JSON, in SI units and radians
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Poles and transmission zeros (delta_e, phi to V, gamma) in trimmed flight
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv poles
+  cargo ahv poles --all
+  cargo ahv poles --set configuration=Rigid --json")]
+pub struct Poles {
+    /// All configurations side by side
+    #[arg(long)]
+    pub all: bool,
+    #[command(flatten)]
+    pub analyse: Analyse,
+}
+
+/// Check everything: format, lints, Rust tests, description, package, FMU tests in Python
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv test
+  cargo ahv test --fail-fast")]
+pub struct Test {
+    /// Stop at the first step that fails
+    #[arg(long)]
+    pub fail_fast: bool,
+}

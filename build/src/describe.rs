@@ -1,0 +1,356 @@
+//! Writes modelDescription.xml from the table of variables.
+
+use crate::cli::Describe;
+use crate::workspace::{read_text, root, shown, write};
+use ahv::dynamics::STATES;
+use ahv::flight::{DEFAULT_TOLERANCE, Flight};
+use ahv::variables::{self, Dependencies, Kind, Role, TABLE, Unit, Variable};
+use anyhow::{Result, bail};
+use quick_xml::Writer;
+use std::io;
+
+/// Name of the binary and of its C prefix.
+pub const MODEL_IDENTIFIER: &str = "ahv";
+/// Time span that the open-loop instability leaves, and a step that shows the third mode, s.
+const STOP_TIME: f64 = 2.0;
+const STEP_SIZE: f64 = 0.01;
+/// Categories of log messages and what they hold.
+const LOG_CATEGORIES: [(&str, &str); 4] = [
+    ("logStatusWarning", "Remarks on calls that were carried out"),
+    ("logStatusDiscard", "Steps that ended early, with the limit that was hit"),
+    ("logStatusError", "Calls that were refused, with the reason"),
+    ("logStatusFatal", "Failures that leave the instance unusable"),
+];
+
+pub fn run(options: &Describe) -> Result<()> {
+    let default = root().join("modelDescription/modelDescription.xml");
+    let file = options.file.as_ref().unwrap_or(&default);
+    let expected = xml()?;
+    if !options.check {
+        write(file, expected)?;
+        println!("{}: {} variables", shown(file), TABLE.len());
+        return Ok(());
+    }
+    let found = read_text(file)?;
+    if found != expected {
+        let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
+        bail!(
+            "{}, line {}: not what the table of variables says; run `cargo ahv describe` and \
+             commit the result\n  found:    {}\n  expected: {}",
+            shown(file),
+            line + 1,
+            found.lines().nth(line).unwrap_or("(end of file)").trim(),
+            expected.lines().nth(line).unwrap_or("(end of file)").trim(),
+        );
+    }
+    println!("{} is up to date", shown(file));
+    Ok(())
+}
+
+/// The whole file. The same sources give the same bytes: no date, no path, no host.
+pub fn xml() -> Result<String> {
+    let flight = Flight::new()?;
+    let mut xml = Xml(Writer::new_with_indent(Vec::new(), b' ', 2));
+    xml.0.write_event(quick_xml::events::Event::Decl(quick_xml::events::BytesDecl::new(
+        "1.0",
+        Some("UTF-8"),
+        None,
+    )))?;
+    let root = [
+        ("fmiVersion", "2.0".to_string()),
+        ("modelName", "ahv".to_string()),
+        ("guid", variables::guid()),
+        (
+            "description",
+            "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing \
+             propellant"
+                .to_string(),
+        ),
+        ("author", "The ahv authors".to_string()),
+        ("version", env!("CARGO_PKG_VERSION").to_string()),
+        ("license", env!("CARGO_PKG_LICENSE").to_string()),
+        ("generationTool", concat!("cargo ahv ", env!("CARGO_PKG_VERSION")).to_string()),
+        ("variableNamingConvention", "flat".to_string()),
+        ("numberOfEventIndicators", "0".to_string()),
+    ];
+    xml.parent("fmiModelDescription", &root, |xml| {
+        co_simulation(xml)?;
+        xml.parent("UnitDefinitions", &[], unit_definitions)?;
+        xml.parent("TypeDefinitions", &[], type_definitions)?;
+        xml.parent("LogCategories", &[], |xml| {
+            LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
+                let attributes =
+                    [("name", name.to_string()), ("description", description.to_string())];
+                xml.leaf("Category", &attributes)
+            })
+        })?;
+        let experiment = [
+            ("startTime", "0".to_string()),
+            ("stopTime", STOP_TIME.to_string()),
+            ("tolerance", format!("{DEFAULT_TOLERANCE:e}")),
+            ("stepSize", STEP_SIZE.to_string()),
+        ];
+        xml.leaf("DefaultExperiment", &experiment)?;
+        xml.parent("ModelVariables", &[], |xml| {
+            TABLE.iter().enumerate().try_for_each(|(row, variable)| {
+                xml.comment(&format!("index {}", index(row)))?;
+                scalar_variable(xml, row, variable, &flight)
+            })
+        })?;
+        xml.parent("ModelStructure", &[], model_structure)
+    })?;
+    Ok(String::from_utf8(xml.0.into_inner())? + "\n")
+}
+
+type Attributes<'a> = [(&'a str, String)];
+
+/// A writer that knows elements with and without children.
+struct Xml(Writer<Vec<u8>>);
+
+impl Xml {
+    fn leaf(&mut self, name: &str, attributes: &Attributes) -> io::Result<()> {
+        let pairs = attributes.iter().map(|(key, value)| (*key, value.as_str()));
+        self.0.create_element(name).with_attributes(pairs).write_empty().map(drop)
+    }
+
+    fn parent(
+        &mut self,
+        name: &str,
+        attributes: &Attributes,
+        children: impl FnOnce(&mut Self) -> io::Result<()>,
+    ) -> io::Result<()> {
+        use quick_xml::events::{BytesEnd, BytesStart, Event};
+        let pairs = attributes.iter().map(|(key, value)| (*key, value.as_str()));
+        self.0.write_event(Event::Start(BytesStart::new(name).with_attributes(pairs)))?;
+        children(self)?;
+        self.0.write_event(Event::End(BytesEnd::new(name)))
+    }
+
+    fn comment(&mut self, text: &str) -> io::Result<()> {
+        use quick_xml::events::{BytesText, Event};
+        self.0.write_event(Event::Comment(BytesText::new(&format!(" {text} "))))
+    }
+}
+
+fn co_simulation(xml: &mut Xml) -> io::Result<()> {
+    let attributes = [
+        ("modelIdentifier", MODEL_IDENTIFIER),
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("canInterpolateInputs", "false"),
+        ("maxOutputDerivativeOrder", "0"),
+        ("canBeInstantiatedOnlyOncePerProcess", "false"),
+        ("canNotUseMemoryManagementFunctions", "true"),
+        ("canGetAndSetFMUstate", "true"),
+        ("canSerializeFMUstate", "true"),
+        ("providesDirectionalDerivative", "false"),
+    ];
+    xml.leaf("CoSimulation", &attributes.map(|(key, value)| (key, value.to_string())))
+}
+
+/// The units of the table by name, in order of appearance. Units of the same name (a rate and a
+/// frequency, both rad/s) are one unit in the XML; it has a display unit if any of them has.
+fn units() -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::new();
+    for variable in &TABLE {
+        let Kind::Real(unit) = variable.kind else { continue };
+        match units.iter_mut().find(|known| known.name == unit.name) {
+            Some(known) => known.display = known.display.or(unit.display),
+            None => units.push(unit),
+        }
+    }
+    units
+}
+
+fn unit_definitions(xml: &mut Xml) -> io::Result<()> {
+    for unit in units() {
+        xml.parent("Unit", &[("name", unit.name.to_string())], |xml| {
+            let exponents: Vec<_> = ["kg", "m", "s", "rad"]
+                .into_iter()
+                .zip(unit.base)
+                .filter(|&(_, exponent)| exponent != 0)
+                .map(|(base, exponent)| (base, exponent.to_string()))
+                .collect();
+            xml.leaf("BaseUnit", &exponents)?;
+            if let Some((name, factor)) = unit.display {
+                let attributes = [("name", name.to_string()), ("factor", factor.to_string())];
+                xml.leaf("DisplayUnit", &attributes)?;
+            }
+            Ok(())
+        })?;
+    }
+    Ok(())
+}
+
+/// Name of the physical quantity that a unit of the table measures; also the name of its type.
+fn quantity(unit: Unit) -> Option<&'static str> {
+    Some(match (unit.name, unit.display) {
+        ("m", _) => "Length",
+        ("m/s", _) => "Velocity",
+        ("m/s2", _) => "Acceleration",
+        ("rad", _) => "Angle",
+        ("rad/s", Some(_)) => "AngularVelocity",
+        ("rad/s", None) => "AngularFrequency",
+        ("rad/s2", _) => "AngularAcceleration",
+        ("N/m", _) => "ForcePerWidth",
+        ("N", _) => "MomentPerWidth",
+        ("Pa", _) => "Pressure",
+        _ => return None,
+    })
+}
+
+fn type_definitions(xml: &mut Xml) -> io::Result<()> {
+    let mut known = Vec::new();
+    for variable in &TABLE {
+        let name = match variable.kind {
+            Kind::Real(unit) => quantity(unit),
+            Kind::Enumeration(name, _) => Some(name),
+            Kind::Boolean => None,
+        };
+        let Some(name) = name.filter(|name| !known.contains(name)) else { continue };
+        known.push(name);
+        xml.parent("SimpleType", &[("name", name.to_string())], |xml| match variable.kind {
+            Kind::Real(unit) => {
+                let mut attributes =
+                    vec![("quantity", name.to_string()), ("unit", unit.name.to_string())];
+                attributes.extend(unit.display.map(|(name, _)| ("displayUnit", name.to_string())));
+                xml.leaf("Real", &attributes)
+            }
+            Kind::Enumeration(_, items) => xml.parent("Enumeration", &[], |xml| {
+                items.iter().try_for_each(|(name, value, description)| {
+                    let attributes = [
+                        ("name", name.to_string()),
+                        ("value", value.to_string()),
+                        ("description", description.to_string()),
+                    ];
+                    xml.leaf("Item", &attributes)
+                })
+            }),
+            Kind::Boolean => Ok(()),
+        })?;
+    }
+    Ok(())
+}
+
+/// Causality, variability and, where the standard lets it be said, initial.
+fn role(role: Role) -> (&'static str, &'static str, Option<&'static str>) {
+    match role {
+        Role::Input(_) => ("input", "continuous", None),
+        Role::Output | Role::OutputState(_) => ("output", "continuous", Some("calculated")),
+        Role::LocalState(_) | Role::Derivative(_) => ("local", "continuous", Some("calculated")),
+        Role::Parameter => ("parameter", "fixed", Some("exact")),
+        Role::Calculated => ("calculatedParameter", "fixed", Some("calculated")),
+    }
+}
+
+fn scalar_variable(
+    xml: &mut Xml,
+    row: usize,
+    variable: &Variable,
+    flight: &Flight,
+) -> io::Result<()> {
+    let (causality, variability, initial) = role(variable.role);
+    let mut attributes = vec![
+        ("name", variable.name.to_string()),
+        ("valueReference", row.to_string()),
+        ("description", variable.description.to_string()),
+        ("causality", causality.to_string()),
+        ("variability", variability.to_string()),
+    ];
+    attributes.extend(initial.map(|initial| ("initial", initial.to_string())));
+    xml.parent("ScalarVariable", &attributes, |xml| {
+        let start = variable.settable().then(|| variable.get(flight));
+        match variable.kind {
+            Kind::Real(unit) => {
+                let mut attributes = Vec::new();
+                attributes.extend(quantity(unit).map(|name| ("declaredType", name.to_string())));
+                attributes.push(("unit", unit.name.to_string()));
+                attributes.extend(unit.display.map(|(name, _)| ("displayUnit", name.to_string())));
+                if let Some([min, max]) = variable.range {
+                    attributes.extend([("min", min.to_string()), ("max", max.to_string())]);
+                }
+                attributes.extend(variable.nominal().map(|value| ("nominal", value.to_string())));
+                attributes.extend(start.map(|value| ("start", value.to_string())));
+                if let Role::Derivative(state) = variable.role {
+                    let state = index(variables::known_rows()[state]);
+                    attributes.push(("derivative", state.to_string()));
+                }
+                xml.leaf("Real", &attributes)
+            }
+            Kind::Boolean => {
+                let start = start.map(|value| ("start", (value != 0.0).to_string()));
+                xml.leaf("Boolean", start.as_slice())
+            }
+            Kind::Enumeration(name, _) => {
+                let mut attributes = vec![("declaredType", name.to_string())];
+                attributes.extend(start.map(|value| ("start", value.to_string())));
+                xml.leaf("Enumeration", &attributes)
+            }
+        }
+    })
+}
+
+/// Index of a row in the ModelStructure, which counts from one.
+fn index(row: usize) -> usize {
+    row + 1
+}
+
+fn model_structure(xml: &mut Xml) -> io::Result<()> {
+    let rows = |wanted: fn(Role) -> bool| {
+        TABLE.iter().enumerate().filter(move |(_, variable)| wanted(variable.role))
+    };
+    xml.parent("Outputs", &[], |xml| {
+        rows(|role| matches!(role, Role::Output | Role::OutputState(_)))
+            .try_for_each(|(row, variable)| unknown(xml, row, variable.dependencies))
+    })?;
+    xml.parent("Derivatives", &[], |xml| {
+        rows(|role| matches!(role, Role::Derivative(_)))
+            .try_for_each(|(row, variable)| unknown(xml, row, variable.dependencies))
+    })?;
+    xml.parent("InitialUnknowns", &[], |xml| {
+        rows(|role| !matches!(role, Role::Input(_) | Role::Parameter))
+            .try_for_each(|(row, variable)| initial_unknown(xml, row, variable))
+    })
+}
+
+/// An output or derivative: on which states and inputs it depends, and how.
+fn unknown(xml: &mut Xml, row: usize, dependencies: Dependencies) -> io::Result<()> {
+    let kinds = [
+        (dependencies.dependent, "dependent"),
+        (dependencies.fixed, "fixed"),
+        (dependencies.constant, "constant"),
+    ];
+    let mut known: Vec<(usize, &str)> = variables::known_rows()
+        .into_iter()
+        .enumerate()
+        .filter_map(|(bit, row)| {
+            let (_, kind) = kinds.into_iter().find(|(mask, _)| mask & (1 << bit) != 0)?;
+            Some((index(row), kind))
+        })
+        .collect();
+    known.sort_unstable();
+    let attributes = [
+        ("index", index(row).to_string()),
+        ("dependencies", list(known.iter().map(|(index, _)| index))),
+        ("dependenciesKind", list(known.iter().map(|(_, kind)| kind))),
+    ];
+    xml.leaf("Unknown", &attributes)
+}
+
+/// At initialisation the states are unknowns too, and what is known are parameters and inputs. The
+/// initial state comes from parameters alone, so an input matters only to what depends on it
+/// directly; to say more would make a master see algebraic loops that are not there.
+fn initial_unknown(xml: &mut Xml, row: usize, variable: &Variable) -> io::Result<()> {
+    let Dependencies { dependent, fixed, constant } = variable.dependencies;
+    let inputs = (dependent | fixed | constant) >> STATES;
+    let known = TABLE.iter().enumerate().filter_map(|(row, known)| match known.role {
+        Role::Input(input) => (inputs & (1 << input) != 0).then(|| index(row)),
+        Role::Parameter => Some(index(row)),
+        _ => None,
+    });
+    let attributes = [("index", index(row).to_string()), ("dependencies", list(known))];
+    xml.leaf("Unknown", &attributes)
+}
+
+fn list(items: impl Iterator<Item = impl ToString>) -> String {
+    items.map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,143 @@
+//! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
+
+use crate::table::number;
+use ahv::flight::Flight;
+use ahv::variables::{Kind, Role, TABLE, Variable, guid};
+use anyhow::{Result, anyhow};
+use quick_xml::escape::escape;
+use std::fmt::Write;
+
+const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
+table{border-collapse:collapse;font-size:14px}th,td{border:1px solid #bbb;padding:.2em .5em;\
+text-align:left;vertical-align:top}th{background:#eee}td.n{text-align:right}";
+
+const EQUATIONS: &str = "\
+<p>The rigid body moves over a round, non-rotating earth with inverse-square gravity. States are
+airspeed, altitude, flight-path angle, incidence and pitch rate; all forces are per metre of
+width.</p>
+<ul>
+<li>Airspeed: thrust along the flight path less drag, over mass, less gravity along the path.</li>
+<li>Flight path: lift and the thrust across the path, over mass and airspeed, less gravity across
+the path, plus the centrifugal relief of the curved earth.</li>
+<li>Incidence: pitch rate less the rate of the flight-path angle. Attitude is their sum.</li>
+<li>Pitch: moment of air and thrust about the mass centre, over the pitch inertia.</li>
+<li>Every kept mode: a damped oscillator driven by its generalised aerodynamic force. The modes are
+those of the free beam together with the sloshing masses on their springs, so the force of the
+propellant is inside them; the dampers of the sloshing masses couple them.</li>
+<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel
+ratio and the modal coordinates with their rates.</li>
+</ul>
+<p>Between communication points the inputs are constant; the states are integrated with an explicit
+Runge-Kutta method of order 8 that controls its error and ends exactly on the communication
+point.</p>";
+
+/// The page, as valid XHTML. The same sources give the same bytes.
+pub fn html() -> Result<String> {
+    let mut flight = Flight::new()?;
+    let mut rows = String::new();
+    for (reference, variable) in TABLE.iter().enumerate() {
+        variable_row(&mut rows, reference, variable, &flight)?;
+    }
+    flight.initialise()?;
+    let limits = limits(&flight)?;
+    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid());
+    Ok(format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
+         <title>ahv {version}</title><style>{STYLE}</style></head>\n<body>\n\
+         <h1>ahv {version}</h1>\n\
+         <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
+         sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
+         2015, 81-88. FMI 2.0 co-simulation. Model {guid}.</p>\n\
+         <h2>Use</h2>\n\
+         <p>Without any setting the vehicle flies level and trimmed; <code>delta_e</code> and \
+         <code>phi</code> are deviations from trim. It is unstable in pitch, as every vehicle of \
+         this family: without a controller even rounding errors grow, so free flight is meaningful \
+         for a few seconds only.</p>\n\
+         <h2>Equations</h2>\n{EQUATIONS}\n\
+         <h2>Validity and limits</h2>\n{limits}\n\
+         <h2>Variables</h2>\n\
+         <table>\n<tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th><th>start</th>\
+         <th>range</th><th>meaning</th></tr>\n{rows}</table>\n\
+         <h2>Licences</h2>\n<p>{} In <a href=\"licenses/\">licenses</a>: the texts, and those of \
+         the libraries inside the binary.</p>\n</body>\n</html>\n",
+        env!("CARGO_PKG_LICENSE")
+    ))
+}
+
+fn limits(flight: &Flight) -> Result<String> {
+    let vehicle = flight.vehicle().ok_or_else(|| anyhow!("the flight is not initialised"))?;
+    let envelope = &vehicle.aero.envelope;
+    let between = |[min, max]: [f64; 2], factor: f64, unit: &str| {
+        format!("{} to {}{unit}", number(min * factor), number(max * factor))
+    };
+    let degrees = 1f64.to_degrees();
+    let [elevator, fuel] = vehicle.limits;
+    Ok(format!(
+        "<p>The default curve fits hold for Mach {}, altitude {} and incidence {}. Leaving this \
+         region ends a step early with fmi2Discard; time and state are those of the last valid \
+         instant. Controls are cut to elevator {} and fuel ratio {}. A flight condition without trim \
+         inside these limits is refused at the end of initialisation, with the limit that was hit. \
+         Values that are not finite are refused and change nothing.</p>",
+        between(envelope.mach, 1.0, ""),
+        between(envelope.altitude, 1e-3, " km"),
+        between(envelope.alpha, degrees, " deg"),
+        between([-elevator, elevator], degrees, " deg"),
+        between([0.0, fuel], 1.0, ""),
+    ))
+}
+
+fn variable_row(
+    text: &mut String,
+    reference: usize,
+    variable: &Variable,
+    flight: &Flight,
+) -> Result<()> {
+    let role = match variable.role {
+        Role::Input(_) => "input",
+        Role::Output => "output",
+        Role::OutputState(_) => "output, state",
+        Role::LocalState(_) => "state",
+        Role::Derivative(_) => "derivative",
+        Role::Parameter => "parameter",
+        Role::Calculated => "calculated parameter",
+    };
+    let value = variable.get(flight);
+    let (unit, value) = match variable.kind {
+        Kind::Real(unit) => (unit.name, number(value)),
+        Kind::Boolean => ("", (value != 0.0).to_string()),
+        Kind::Enumeration(_, items) => {
+            let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);
+            ("", item.map_or(String::new(), |(name, ..)| name.to_string()))
+        }
+    };
+    let start = if variable.settable() { value } else { String::new() };
+    let range = match (variable.kind, variable.range) {
+        (Kind::Enumeration(_, items), _) => {
+            let items = items.iter().map(|(name, number, _)| format!("{number} {name}"));
+            items.collect::<Vec<_>>().join(", ")
+        }
+        (_, Some([min, max])) => format!("{min} to {max}"),
+        (_, None) => String::new(),
+    };
+    writeln!(
+        text,
+        "<tr><td class=\"n\">{reference}</td><td><code>{}</code></td><td>{role}</td><td>{unit}</td>\
+         <td class=\"n\">{start}</td><td>{range}</td><td>{}</td></tr>",
+        escape(variable.name),
+        escape(variable.description),
+    )?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn page_is_well_formed_and_names_every_variable() {
+        let page = super::html().unwrap();
+        let mut reader = quick_xml::Reader::from_str(&page);
+        while !matches!(reader.read_event().unwrap(), quick_xml::events::Event::Eof) {}
+        for variable in &ahv::variables::TABLE {
+            assert!(page.contains(&format!("<code>{}</code>", variable.name)), "{}", variable.name);
+        }
+    }
+}

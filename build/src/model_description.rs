@@ -1,0 +1,210 @@
+//! Reads modelDescription.xml: all that a master may know of an FMU.
+
+use anyhow::{Context, Result};
+use serde::Deserialize;
+
+#[derive(Debug, Deserialize)]
+pub struct ModelDescription {
+    #[serde(rename = "@fmiVersion")]
+    pub fmi_version: String,
+    #[serde(rename = "@modelName")]
+    pub model_name: String,
+    #[serde(rename = "@guid")]
+    pub guid: String,
+    #[serde(rename = "CoSimulation")]
+    pub co_simulation: Option<CoSimulation>,
+    #[serde(rename = "UnitDefinitions", default)]
+    units: Units,
+    #[serde(rename = "TypeDefinitions", default)]
+    types: Types,
+    #[serde(rename = "DefaultExperiment", default)]
+    pub experiment: Experiment,
+    #[serde(rename = "ModelVariables")]
+    variables: Variables,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct CoSimulation {
+    #[serde(rename = "@modelIdentifier")]
+    pub model_identifier: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+pub struct Experiment {
+    #[serde(rename = "@stopTime")]
+    pub stop_time: Option<f64>,
+    #[serde(rename = "@stepSize")]
+    pub step_size: Option<f64>,
+    #[serde(rename = "@tolerance")]
+    pub tolerance: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+struct Units {
+    #[serde(rename = "Unit", default)]
+    list: Vec<Unit>,
+}
+
+#[derive(Debug, Deserialize)]
+struct Unit {
+    #[serde(rename = "@name")]
+    name: String,
+    #[serde(rename = "DisplayUnit", default)]
+    display: Vec<DisplayUnit>,
+}
+
+/// Shown value = value * factor + offset.
+#[derive(Debug, Clone, Deserialize)]
+pub struct DisplayUnit {
+    #[serde(rename = "@name")]
+    pub name: String,
+    #[serde(rename = "@factor", default = "one")]
+    pub factor: f64,
+    #[serde(rename = "@offset", default)]
+    pub offset: f64,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+#[derive(Debug, Default, Deserialize)]
+struct Types {
+    #[serde(rename = "SimpleType", default)]
+    list: Vec<SimpleType>,
+}
+
+#[derive(Debug, Deserialize)]
+struct SimpleType {
+    #[serde(rename = "@name")]
+    name: String,
+    #[serde(rename = "Enumeration")]
+    enumeration: Option<EnumerationType>,
+}
+
+#[derive(Debug, Deserialize)]
+struct EnumerationType {
+    #[serde(rename = "Item", default)]
+    items: Vec<Item>,
+}
+
+/// One value of an enumeration.
+#[derive(Debug, Deserialize)]
+pub struct Item {
+    #[serde(rename = "@name")]
+    pub name: String,
+    #[serde(rename = "@value")]
+    pub value: i32,
+}
+
+#[derive(Debug, Deserialize)]
+struct Variables {
+    #[serde(rename = "ScalarVariable", default)]
+    list: Vec<Variable>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Variable {
+    #[serde(rename = "@name")]
+    pub name: String,
+    #[serde(rename = "@valueReference")]
+    pub value_reference: u32,
+    #[serde(rename = "@causality", default)]
+    pub causality: Causality,
+    #[serde(rename = "$value")]
+    pub kind: Kind,
+}
+
+#[derive(Debug, Default, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Causality {
+    Parameter,
+    CalculatedParameter,
+    Input,
+    Output,
+    #[default]
+    Local,
+    Independent,
+}
+
+#[derive(Debug, Deserialize)]
+pub enum Kind {
+    Real(Real),
+    Integer,
+    Boolean,
+    Enumeration(Enumeration),
+    String,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Real {
+    #[serde(rename = "@unit")]
+    pub unit: Option<String>,
+    #[serde(rename = "@displayUnit")]
+    display_unit: Option<String>,
+    #[serde(rename = "@min")]
+    pub min: Option<f64>,
+    #[serde(rename = "@max")]
+    pub max: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+pub struct Enumeration {
+    #[serde(rename = "@declaredType")]
+    declared_type: Option<String>,
+}
+
+impl ModelDescription {
+    pub fn parse(xml: &str) -> Result<Self> {
+        quick_xml::de::from_str(xml).context("modelDescription.xml cannot be read")
+    }
+
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables.list
+    }
+
+    pub fn with(&self, causality: Causality) -> impl Iterator<Item = &Variable> {
+        self.variables().iter().filter(move |variable| variable.causality == causality)
+    }
+
+    pub fn find(&self, name: &str) -> Option<&Variable> {
+        self.variables().iter().find(|variable| variable.name == name)
+    }
+
+    /// The items of an enumeration; none for other kinds.
+    pub fn items(&self, variable: &Variable) -> &[Item] {
+        let Kind::Enumeration(Enumeration { declared_type: Some(name) }) = &variable.kind else {
+            return &[];
+        };
+        self.types
+            .list
+            .iter()
+            .find(|known| known.name == *name)
+            .and_then(|known| known.enumeration.as_ref())
+            .map_or(&[], |enumeration| &enumeration.items)
+    }
+
+    /// How a real variable is shown: in its display unit, or as it is.
+    pub fn display(&self, variable: &Variable) -> DisplayUnit {
+        let plain = |name: &str| DisplayUnit { name: name.to_string(), factor: 1.0, offset: 0.0 };
+        let Kind::Real(Real { unit: Some(unit), display_unit, .. }) = &variable.kind else {
+            return plain("1");
+        };
+        let known = self.units.list.iter().find(|known| known.name == *unit);
+        let Some(shown) = display_unit else { return plain(unit) };
+        known
+            .and_then(|known| known.display.iter().find(|display| display.name == *shown))
+            .cloned()
+            .unwrap_or_else(|| plain(unit))
+    }
+}
+
+impl Variable {
+    /// Unit of a real variable; "1" if it has none.
+    pub fn unit(&self) -> &str {
+        match &self.kind {
+            Kind::Real(Real { unit: Some(unit), .. }) => unit,
+            _ => "1",
+        }
+    }
+}

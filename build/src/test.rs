@@ -1,0 +1,129 @@
+//! Checks everything, in the order in which mistakes are cheapest to find.
+
+use crate::cli::{Describe, Test};
+use crate::workspace::{cargo, read, root, shown, target, write};
+use crate::{describe, package};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+/// A named step.
+type Step = (&'static str, fn() -> Result<()>);
+
+const STEPS: [Step; 7] = [
+    ("prerequisites", prerequisites),
+    ("format", || check(cargo().args(["fmt", "--all", "--check"]))),
+    ("lints", || {
+        check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+    }),
+    ("Rust tests", || check(cargo().args(["test", "--workspace"]))),
+    ("description", || describe::run(&Describe { check: true, file: None })),
+    ("package", || package::build().map(|file| println!("{}", shown(&file)))),
+    ("FMU tests", fmu_tests),
+];
+
+pub fn run(options: &Test) -> Result<()> {
+    let mut results = Vec::new();
+    for (number, (name, step)) in STEPS.into_iter().enumerate() {
+        println!("\n[{}/{}] {name}", number + 1, STEPS.len());
+        let started = Instant::now();
+        let result = step();
+        if let Err(error) = &result {
+            eprintln!("error: {error:#}");
+        }
+        let passed = result.is_ok();
+        results.push((name, passed, started.elapsed().as_secs_f64()));
+        if !passed && options.fail_fast {
+            break;
+        }
+    }
+    println!("\nSummary");
+    for (name, passed, seconds) in &results {
+        let result = if *passed { "passed" } else { "FAILED" };
+        println!("  {name:<14} {result} {seconds:8.1} s");
+    }
+    for (name, _) in STEPS.iter().skip(results.len()) {
+        println!("  {name:<14} not run");
+    }
+    let failed: Vec<_> =
+        results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| *name).collect();
+    if !failed.is_empty() {
+        bail!("failed: {}", failed.join(", "));
+    }
+    Ok(())
+}
+
+fn check(command: &mut Command) -> Result<()> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let first = command.get_args().next().unwrap_or_default().to_string_lossy().into_owned();
+    let status = command.status().with_context(|| format!("cannot start {program}"))?;
+    if !status.success() {
+        bail!("{} {first}: {status}", shown(Path::new(&program)));
+    }
+    Ok(())
+}
+
+/// What has to be on the machine, and the Debian package that brings it.
+fn prerequisites() -> Result<()> {
+    const NEEDED: [(&str, &[&str], &str); 4] = [
+        ("cc", &["--version"], "gcc"),
+        ("python3", &["--version"], "python3"),
+        ("python3", &["-c", "import venv"], "python3-venv"),
+        ("python3", &["-c", "import ensurepip"], "python3-venv"),
+    ];
+    let works = |program: &str, arguments: &[&str]| {
+        Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
+    };
+    let mut missing: Vec<_> = NEEDED
+        .into_iter()
+        .filter(|(program, arguments, _)| !works(program, arguments))
+        .map(|(_, _, package)| package)
+        .collect();
+    missing.dedup();
+    if !missing.is_empty() {
+        bail!("missing; on Debian: apt-get install {}", missing.join(" "));
+    }
+    if !works("valgrind", &["--version"]) {
+        println!("valgrind is not installed: tests that need it are skipped");
+    }
+    Ok(())
+}
+
+/// The FMU in other masters, driven from Python.
+fn fmu_tests() -> Result<()> {
+    let fmu = package::build()?;
+    let python = environment()?;
+    let tests = root().join("tests/fmu");
+    check(
+        Command::new(python)
+            .args(["-m", "pytest"])
+            .arg(tests)
+            .current_dir(root())
+            .env("AHV_FMU", fmu),
+    )
+}
+
+/// The Python interpreter of a virtual environment with exactly the locked packages.
+///
+/// A copy of the lock, written last, says that the environment is complete.
+fn environment() -> Result<PathBuf> {
+    let lock = root().join("tests/fmu/requirements.lock");
+    let wanted = read(&lock)?;
+    let directory = target().join("venv");
+    let stamp = directory.join("requirements.lock");
+    let python = directory.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    if stamp.exists() && python.exists() && read(&stamp)? == wanted {
+        return Ok(python);
+    }
+    println!("making {} from {}", shown(&directory), shown(&lock));
+    check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))?;
+    check(
+        Command::new(&python)
+            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+            .args(["--require-hashes", "--requirement"])
+            .arg(&lock),
+    )?;
+    write(&stamp, wanted)?;
+    Ok(python)
+}

@@ -1,0 +1,95 @@
+//! Prints trimmed flight.
+
+use crate::cli::{Analyse, Set};
+use crate::describe;
+use crate::model_description::ModelDescription;
+use crate::settings;
+use crate::table::{number, row, table};
+use ahv::dynamics::{RIGID, Vehicle};
+use ahv::flight::Flight;
+use ahv::trim::Trim;
+use ahv::variables;
+use anyhow::{Result, anyhow};
+use serde_json::json;
+
+/// The model as a master sees it; `--set` is checked against it here as in `fly`.
+pub fn model() -> Result<ModelDescription> {
+    ModelDescription::parse(&describe::xml()?)
+}
+
+/// An initialised flight with the parameters of the command line.
+pub fn flight(model: &ModelDescription, set: &Set) -> Result<Flight> {
+    let mut flight = Flight::new()?;
+    for setting in settings::parse(model, &set.settings)? {
+        let name = &setting.variable.name;
+        let variable = variables::find(name).ok_or_else(|| anyhow!("no variable {name}"))?;
+        variable.set(&mut flight, setting.value)?;
+    }
+    flight.evaluate()?;
+    Ok(flight)
+}
+
+/// Vehicle and trim of an initialised flight.
+pub fn ready(flight: &Flight) -> Result<(&Vehicle, &Trim)> {
+    flight.vehicle().zip(flight.trim()).ok_or_else(|| anyhow!("the flight is not initialised"))
+}
+
+/// Name of the configuration that flies.
+pub fn configuration(flight: &Flight) -> String {
+    format!("{:?}", flight.parameters().build.configuration)
+}
+
+pub fn run(options: &Analyse) -> Result<()> {
+    let model = model()?;
+    let flight = flight(&model, &options.set)?;
+    let (vehicle, trim) = ready(&flight)?;
+    let loads = vehicle.loads(&trim.state, &trim.control);
+    let outputs = vehicle.outputs(&trim.state, &trim.control);
+    let (gravity, _) = vehicle.atmosphere.gravity(trim.state[1]);
+    let [v, h, gamma, alpha, ..] = trim.state;
+    let [delta_e, phi] = trim.control;
+    let elastic = |mode: usize| trim.state[RIGID + 2 * mode];
+
+    // Name, value in SI, unit, and how it is shown.
+    let degrees = ("deg", 1f64.to_degrees());
+    let millimetres = ("mm", 1e3);
+    let mut rows = vec![
+        ("mach", loads.mach, "1", ("1", 1.0)),
+        ("V", v, "m/s", ("m/s", 1.0)),
+        ("h", h, "m", ("m", 1.0)),
+        ("gamma", gamma, "rad", degrees),
+        ("qbar", loads.qbar, "Pa", ("kPa", 1e-3)),
+        ("alpha", alpha, "rad", degrees),
+        ("delta_e", delta_e, "rad", degrees),
+        ("phi", phi, "1", ("1", 1.0)),
+        ("weight", vehicle.mass * gravity, "N/m", ("kN/m", 1e-3)),
+        ("lift", loads.lift, "N/m", ("kN/m", 1e-3)),
+        ("drag", loads.drag, "N/m", ("kN/m", 1e-3)),
+        ("thrust", loads.thrust, "N/m", ("kN/m", 1e-3)),
+        ("moment", loads.moment, "N", ("N", 1.0)),
+        ("n_z", outputs.n_z, "1", ("g", 1.0)),
+    ];
+    let flexible = ["eta1", "eta2", "eta3", "eta_slosh1", "eta_slosh2"];
+    for (mode, name) in flexible.into_iter().enumerate().take(vehicle.modes) {
+        rows.push((name, elastic(mode), "m", millimetres));
+    }
+    if options.json {
+        let values = rows
+            .iter()
+            .map(|(name, value, unit, _)| {
+                (name.to_string(), json!({ "value": value, "unit": unit }))
+            })
+            .collect::<serde_json::Map<_, _>>();
+        let whole = json!({ "configuration": configuration(&flight), "trim": values });
+        println!("{whole:#}");
+        return Ok(());
+    }
+    let mut text = vec![row(["quantity", "value", "unit"])];
+    for (name, value, _, (unit, factor)) in rows {
+        text.push(vec![name.to_string(), number(value * factor), unit.to_string()]);
+    }
+    let kind = if flight.parameters().trim { "Trimmed flight" } else { "Start, not trimmed" };
+    println!("{kind}, {}; forces per metre of width", configuration(&flight));
+    print!("{}", table(&text));
+    Ok(())
+}
