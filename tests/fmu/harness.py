@@ -66,9 +66,9 @@ class Package:
             variable.name: variable for variable in self.description.modelVariables
         }
 
-    def instance(self, name: str = "ahv") -> Instance:
+    def instance(self, name: str = "ahv", logging: bool = False) -> Instance:
         """A new instance, not initialised."""
-        return Instance(self, name)
+        return Instance(self, name, logging)
 
     def flight(self, tolerance: float | None = None, **start: Any) -> Instance:
         """A new instance, initialised with these start values."""
@@ -93,7 +93,7 @@ class Refused(Exception):
 class Instance:
     """One instance: `log` has its messages, `time` is the end of the last step."""
 
-    def __init__(self, package: Package, name: str = "ahv") -> None:
+    def __init__(self, package: Package, name: str = "ahv", logging: bool = False) -> None:
         self.package, self.time, self.log = package, 0.0, []
         self.fmu = FMU2Slave(
             guid=package.description.guid,
@@ -105,7 +105,7 @@ class Instance:
         callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
         callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
         callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-        self.fmu.instantiate(callbacks=callbacks)
+        self.fmu.instantiate(callbacks=callbacks, loggingOn=logging)
         self._open = True
 
     def _hear(self, _: Any, instance: bytes, status: int, category: bytes, text: bytes) -> None:
