@@ -41,7 +41,8 @@ class Vehicle:
     slosh_damping is a ratio, slosh_frequency is in rad/s (0: from the tank), altitude0 in m,
     gamma0 in rad; None takes the default of the data. `elements` overrides the data's beam mesh.
     Attributes: mass kg/m, x_cg m, i_yy kg m^2/m, omega rad/s, modal_mass kg/m, damping matrix D
-    1/s, rel [tank, mode], modes (shapes at the nodes), beam, elastic (the terms of eq. (4)).
+    1/s, rel [tank, mode], floor m/s^2 (the floors of the tanks on each mode),
+    modes (shapes at the nodes), beam, elastic (the terms of eq. (4)).
     """
 
     def __init__(
@@ -88,6 +89,7 @@ class Vehicle:
         self.rel[: len(self.beam.tanks)] = self.modes.rel
         self.damping = self._damping(inertia["structural_damping"])
         self.elastic = Elastic(self.data["geometry"], self.aero, self.beam, self.modes)
+        self.floor = self._floor()
         self._trim: tuple[np.ndarray, np.ndarray] | None = None
 
     def _damping(self, structural: float) -> np.ndarray:
@@ -98,6 +100,16 @@ class Vehicle:
         in_beam = 1.0 - k @ rel**2 / (omega**2 * mass)
         tank_part = (rel.T * c) @ rel / mass[:, None]
         return tank_part + np.diag(2.0 * structural * omega * in_beam)
+
+    def _floor(self) -> np.ndarray:
+        """Modal acceleration in m/s^2 of the floors of the tanks, which carry the liquid at rest.
+
+        The weight m1_j g_eff of a sloshing mass rests on the floor, not on the spring: a constant
+        force upwards on the mass and downwards on the node of its tank. Its power in mode i is
+        m1_j g_eff rel[j, i] eta_i'. The pair adds up to nothing on the rigid body.
+        """
+        weight = np.array([tank.slosh_mass * self.g_eff for tank in self.beam.tanks])
+        return weight @ self.rel[: len(weight)] / self.modal_mass
 
     def forces(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:
         """Lift, drag, thrust N/m, moment N, modal forces N/m of eq. (4), qbar Pa and Mach."""
@@ -138,7 +150,8 @@ class Vehicle:
         dx[0] = (f["thrust"] * np.cos(alpha) - f["drag"]) / self.mass - g * np.sin(gamma)
         dx[1], dx[2], dx[3], dx[4] = v * np.sin(gamma), turn, q - turn, f["moment"] / self.i_yy
         dx[5::2] = rate
-        dx[6::2] = f["modal"] / self.modal_mass - self.omega**2 * eta - self.damping @ rate
+        modal = f["modal"] / self.modal_mass + self.floor
+        dx[6::2] = modal - self.omega**2 * eta - self.damping @ rate
         return dx
 
     def outputs(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:

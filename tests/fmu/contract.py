@@ -1,0 +1,100 @@
+"""What every master may rely on, written by hand: names, causality, variability, type, unit.
+
+Scripts, controllers and diagrams of users refer to these names and numbers. Entries are added,
+never changed or removed.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Entry(NamedTuple):
+    """One variable; `unit` and `display` are None where they do not apply."""
+
+    name: str
+    causality: str
+    variability: str
+    type: str
+    unit: str | None = None
+    display: str | None = None
+
+
+def reals(names: str, causality: str, variability: str, unit: str) -> list[Entry]:
+    """Real variables that differ only by name; angles are shown in degrees."""
+    display = "deg" if unit == "rad" else None
+    rows = names.split()
+    return [Entry(name, causality, variability, "Real", unit, display) for name in rows]
+
+
+CONTRACT = [
+    *reals("delta_e", "input", "continuous", "rad"),
+    *reals("phi", "input", "continuous", "1"),
+    *reals("V", "output", "continuous", "m/s"),
+    *reals("gamma alpha theta delta_e_effective", "output", "continuous", "rad"),
+    *reals("eta1 eta2 eta3 h slosh1 slosh2", "output", "continuous", "m"),
+    *reals("lift drag thrust", "output", "continuous", "N/m"),
+    *reals("moment", "output", "continuous", "N"),
+    *reals("mach n_z phi_effective", "output", "continuous", "1"),
+    *reals("qbar", "output", "continuous", "Pa"),
+    Entry("q", "output", "continuous", "Real", "rad/s", "deg/s"),
+    Entry("configuration", "parameter", "fixed", "Enumeration"),
+    Entry("aero", "parameter", "fixed", "Enumeration"),
+    Entry("input_mode", "parameter", "fixed", "Enumeration"),
+    Entry("trim", "parameter", "fixed", "Boolean"),
+    *reals("fuel_fraction slosh_damping mach0", "parameter", "fixed", "1"),
+    *reals("slosh_frequency", "parameter", "fixed", "rad/s"),
+    *reals("altitude0 eta10 eta20 eta30", "parameter", "fixed", "m"),
+    *reals("gamma0 alpha0", "parameter", "fixed", "rad"),
+    Entry("q0", "parameter", "fixed", "Real", "rad/s", "deg/s"),
+    *reals("alpha_trim delta_e_trim", "calculatedParameter", "fixed", "rad"),
+    *reals("phi_trim", "calculatedParameter", "fixed", "1"),
+    *reals(
+        "omega1 omega2 omega3 omega_slosh1 omega_slosh2", "calculatedParameter", "fixed", "rad/s"
+    ),
+    *reals(
+        "eta1_dot eta2_dot eta3_dot eta_slosh1_dot eta_slosh2_dot", "local", "continuous", "m/s"
+    ),
+    *reals("eta_slosh1 eta_slosh2", "local", "continuous", "m"),
+    *reals("der(V)", "local", "continuous", "m/s2"),
+    *reals(
+        "der(h) der(eta1) der(eta2) der(eta3) der(eta_slosh1) der(eta_slosh2)",
+        *("local", "continuous", "m/s"),
+    ),
+    Entry("der(gamma)", "local", "continuous", "Real", "rad/s", "deg/s"),
+    Entry("der(alpha)", "local", "continuous", "Real", "rad/s", "deg/s"),
+    *reals("der(q)", "local", "continuous", "rad/s2"),
+    *reals(
+        "der(eta1_dot) der(eta2_dot) der(eta3_dot) der(eta_slosh1_dot) der(eta_slosh2_dot)",
+        *("local", "continuous", "m/s2"),
+    ),
+]
+
+# Exponents of the base units: kg, m, s, rad.
+UNITS = {
+    "1": (0, 0, 0, 0),
+    "m": (0, 1, 0, 0),
+    "m/s": (0, 1, -1, 0),
+    "m/s2": (0, 1, -2, 0),
+    "rad": (0, 0, 0, 1),
+    "rad/s": (0, 0, -1, 1),
+    "rad/s2": (0, 0, -2, 1),
+    "N/m": (1, 0, -2, 0),
+    "N": (1, 1, -2, 0),
+    "Pa": (1, -1, -2, 0),
+}
+
+# A value keeps its number for ever; one that does not exist yet is not offered.
+ENUMERATIONS = {
+    "configuration": {"Rigid": 1, "EvenMassBeam": 2, "SloshBeam": 3},
+    "aero": {"xu2015": 1, "parker2007": 2, "shock_expansion": 3},
+    "input_mode": {"DeviationFromTrim": 1, "Absolute": 2},
+}
+COMPLETE = ("configuration", "input_mode")
+
+START = {
+    **{"delta_e": 0.0, "phi": 0.0, "configuration": 3, "input_mode": 1, "trim": True},
+    **{"fuel_fraction": 1.0, "slosh_damping": 0.05, "slosh_frequency": 0.0},
+    **{"mach0": 8.0, "altitude0": 25900.0, "gamma0": 0.0},
+}
+EXPERIMENT = {"startTime": 0.0, "stopTime": 2.0, "stepSize": 0.01, "tolerance": 1e-8}

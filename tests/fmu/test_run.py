@@ -1,0 +1,129 @@
+"""The FMU flies like the independent model in tests/oracle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from harness import (
+    ACTIVE_STATES,
+    CONFIGURATIONS,
+    DERIVATIVES,
+    INPUTS,
+    OUTPUTS,
+    STATES,
+    Package,
+)
+from oracle import Vehicle
+
+STEP, STEPS = 0.01, 100
+
+# Difference in a flight of one second, by the tolerance, relative to the largest excursion of the
+# variable from its value at the start: for speed and altitude far stricter than relative to the
+# value. The integrator measures its error by the nominal values instead, of which the third mode
+# excites a tenth or less, and the unstable short period amplifies early errors by up to e^(5 t):
+# the default of 1e-8 leaves 2e-7 in the worst variable, all others are below 1e-7.
+RUN = {None: 3e-7, 1e-10: 1e-7}
+# Rates and outputs at the same state and input: rounding, relative to the variable's largest value.
+POINTWISE = 1e-11
+
+
+def doublet(step: int) -> tuple[float, float]:
+    """Elevator up and down, 0.2 s each."""
+    delta = 0.005 if 10 <= step < 30 else -0.005 if 30 <= step < 50 else 0.0
+    return delta, 0.0
+
+
+def throttle(step: int) -> tuple[float, float]:
+    """More fuel from 0.1 s on."""
+    return 0.0, 0.05 if step >= 10 else 0.0
+
+
+def both(step: int) -> tuple[float, float]:
+    """Something on both inputs in every step, without a pattern."""
+    return 0.01 * np.sin(1.7 * step**1.3), 0.1 * np.cos(2.3 * step**1.2)
+
+
+def columns(vehicle: Vehicle, states: np.ndarray, outputs: dict) -> np.ndarray:
+    """The oracle's states, padded by zeros, and outputs, as the FMU has them."""
+    full = np.zeros((len(states), len(STATES)))
+    full[:, : vehicle.states] = states
+    return np.hstack([full, *(outputs[key][:, None] for key in OUTPUTS.values())])
+
+
+def assert_equal_flights(ours: np.ndarray, theirs: np.ndarray, limit: float) -> None:
+    """Every variable within `limit` of its largest excursion; one that must not move does not."""
+    excursion = np.abs(theirs - theirs[0]).max(axis=0)
+    error = np.abs(ours - theirs).max(axis=0)
+    for name, wrong, size in zip((*STATES, *OUTPUTS), error, excursion, strict=True):
+        assert wrong <= limit * size, f"{name}: {wrong / size if size else wrong:.2e}"
+
+
+@pytest.mark.parametrize("tolerance", RUN, ids=["default", "tight"])
+@pytest.mark.parametrize("manoeuvre", [doublet, throttle], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("configuration", CONFIGURATIONS)
+def test_verif_run_equals_the_oracle(
+    package: Package,
+    vehicle: Callable[..., Vehicle],
+    flown: Callable[..., np.ndarray],
+    configuration: int,
+    manoeuvre: Callable[[int], tuple[float, float]],
+    tolerance: float | None,
+) -> None:
+    """All states and outputs of a manoeuvre, at every communication point."""
+    theirs = flown(configuration, manoeuvre)
+    with package.flight(tolerance, configuration=configuration) as flight:
+        ours = flight.fly(STEPS, STEP, manoeuvre, (*STATES, *OUTPUTS))
+    assert_equal_flights(ours, theirs, RUN[tolerance])
+
+
+@pytest.fixture(scope="module")
+def flown(vehicle: Callable[..., Vehicle]) -> Callable[..., np.ndarray]:
+    """The oracle's flights, each computed once."""
+    known: dict = {}
+
+    def fly(configuration: int, manoeuvre: Callable) -> np.ndarray:
+        key = (configuration, manoeuvre)
+        if key not in known:
+            oracle = vehicle(configuration)
+            _, states, outputs = oracle.simulate(STEPS * STEP, STEP, manoeuvre)
+            known[key] = columns(oracle, states, outputs)
+        return known[key]
+
+    return fly
+
+
+@pytest.mark.parametrize("configuration", CONFIGURATIONS)
+def test_verif_rates_and_outputs_equal_the_oracle_at_every_state(
+    package: Package, vehicle: Callable[..., Vehicle], configuration: int
+) -> None:
+    """Equations (3) and (4) themselves: no integrator in between, all states away from trim."""
+    oracle = vehicle(configuration)
+    active = ACTIVE_STATES[configuration]
+    names = (*STATES, "delta_e_effective", "phi_effective", *DERIVATIVES, *OUTPUTS)
+    with package.flight(configuration=configuration) as flight:
+        table = flight.fly(40, 0.02, both, names)
+    count = len(STATES)
+    theirs = []
+    for row in table:
+        x, u = row[:active], row[count : count + len(INPUTS)]
+        rates = np.zeros(count)
+        rates[:active] = oracle.rhs(0.0, x, u)
+        outputs = oracle.outputs(x, u)
+        theirs.append([*rates, *(outputs[key] for key in OUTPUTS.values())])
+    ours, expected = table[:, count + len(INPUTS) :], np.array(theirs)
+    scale = np.abs(expected).max(axis=0)
+    error = np.abs(ours - expected).max(axis=0)
+    for name, wrong, size in zip((*DERIVATIVES, *OUTPUTS), error, scale, strict=True):
+        assert wrong <= POINTWISE * size, f"{name}: {wrong / size if size else wrong:.2e}"
+
+
+@pytest.mark.parametrize("configuration", CONFIGURATIONS[:2])
+def test_verif_states_of_missing_parts_stay_zero(package: Package, configuration: int) -> None:
+    """A rigid vehicle has no modes and the even beam has no slosh: exactly zero."""
+    missing = [*STATES[ACTIVE_STATES[configuration] :], "slosh1", "slosh2"]
+    rates = [f"der({name})" for name in missing[:-2]]
+    with package.flight(configuration=configuration) as flight:
+        assert not flight.fly(20, STEP, both, [*missing, *rates]).any()
