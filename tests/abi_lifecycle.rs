@@ -6,7 +6,7 @@ mod common;
 
 use ahv::fmi::lifecycle::{CALLS, PHASES, Phase};
 use ahv::fmi::sys::{Status, StatusKind};
-use common::{Api, Slave, reference};
+use common::{Api, Slave, configurations, reference};
 use std::ptr::{null, null_mut};
 
 /// The table of FMI 2.0.5, section 4.2.4, typed from the standard: columns instantiated,
@@ -248,9 +248,9 @@ fn an_impossible_trim_is_an_error_with_its_reason_and_the_instance_can_be_reset(
     assert_eq!(slave.step(0.0, 0.01), Status::Ok);
 }
 
-fn flight(slave: &Slave) -> Vec<Vec<u64>> {
+fn flight(slave: &Slave, configuration: i32) -> Vec<Vec<u64>> {
     assert_eq!(slave.set("altitude0", 26500.0), Status::Ok);
-    assert_eq!(slave.set_integer("configuration", 1), Status::Ok);
+    assert_eq!(slave.set_integer("configuration", configuration), Status::Ok);
     assert_eq!(slave.setup_with(Some(1e-7), 3.0, Some(4.0)), Status::Ok);
     assert_eq!(slave.enter(), Status::Ok);
     assert_eq!(slave.exit(), Status::Ok);
@@ -275,10 +275,13 @@ fn a_reset_restores_everything_so_the_second_run_has_the_same_bits() {
     assert_eq!(slave.bytes(reset), fresh.bytes(new), "a reset instance is like a new one");
     slave.free(reset);
     fresh.free(new);
-    let first = flight(&slave);
-    assert_eq!(slave.reset(), Status::Ok);
-    assert_eq!(first, flight(&slave));
-    assert_eq!(first, flight(&fresh));
+    for configuration in configurations() {
+        assert_eq!((slave.reset(), fresh.reset()), (Status::Ok, Status::Ok));
+        let first = flight(&slave, configuration);
+        assert_eq!(slave.reset(), Status::Ok);
+        assert_eq!(first, flight(&slave, configuration));
+        assert_eq!(first, flight(&fresh, configuration));
+    }
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod fmu;
 mod licenses;
 mod manoeuvre;
 mod master;
+mod methods;
 mod model_description;
 mod modes;
 mod package;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Command::Modes(options) => modes::run(&options),
         Command::Trim(options) => trim::run(&options),
         Command::Poles(options) => poles::run(&options),
+        Command::Methods(options) => methods::run(&options),
         Command::Test(options) => test::run(&options),
     };
     match result {

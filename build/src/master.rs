@@ -247,7 +247,7 @@ unsafe extern "C" fn logger(
     };
     // SAFETY: the environment is the log that was passed with the callbacks; it outlives them.
     let Some(log) = (unsafe { environment.cast::<Log>().as_ref() }) else { return };
-    let (category, text) = (text(category), text(message).replace("%%", "%"));
+    let (category, text) = (text(category), text(message).replace("%%", "%").replace("##", "#"));
     let message = Message { status, category, text };
     log.0.lock().unwrap_or_else(PoisonError::into_inner).push(message);
 }

@@ -1,13 +1,42 @@
 //! Prints the modes that are kept.
 
-use crate::cli::Analyse;
+use crate::cli;
 use crate::table::{number, row, table};
 use crate::trim::{configuration, flight, model, ready};
-use ahv::modes::{FLEXIBLE, Modes};
-use ahv::vehicle::{Data, structure};
+use ahv::modes::{FLEXIBLE, MODES, Modes};
+use ahv::vehicle::{Build, Data, structure};
 use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// Solutions whose median time is quoted.
+const REPEATS: usize = 200;
+
+/// The eigenproblem, its frequencies and the time that they took.
+fn solved_elements(build: &Build) -> Result<serde_json::Value> {
+    let (beam, oscillators) = structure(&Data::embedded()?, build)?;
+    let mut seconds = Vec::with_capacity(REPEATS);
+    let mut omega = [0.0; MODES];
+    for _ in 0..REPEATS {
+        let started = Instant::now();
+        omega = Modes::solve(&beam, &oscillators)?.omega_rad_per_s;
+        seconds.push(started.elapsed().as_secs_f64());
+    }
+    seconds.sort_by(f64::total_cmp);
+    let masses: Vec<_> = oscillators
+        .iter()
+        .map(|o| json!({ "node": o.node, "mass": o.mass, "stiffness": o.stiffness }))
+        .collect();
+    Ok(json!({
+        "element_m": beam.element_m,
+        "stiffness": beam.stiffness,
+        "density": beam.density,
+        "oscillators": masses,
+        "omega_rad_per_s": omega,
+        "median_s": seconds[REPEATS / 2],
+    }))
+}
 
 /// What a mode is called: flexible ones first, then those of the sloshing masses.
 pub fn name(mode: usize) -> String {
@@ -22,7 +51,8 @@ pub fn ordinal(index: usize) -> &'static str {
     ["1st", "2nd", "3rd"].get(index).copied().unwrap_or("next")
 }
 
-pub fn run(options: &Analyse) -> Result<()> {
+pub fn run(options: &cli::Modes) -> Result<()> {
+    let cli::Modes { analyse: options, elements } = options;
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, _) = ready(&flight)?;
     let count = vehicle.modes;
@@ -33,6 +63,10 @@ pub fn run(options: &Analyse) -> Result<()> {
             Modes::solve(&beam, &oscillators)?
         }
     };
+    if *elements {
+        println!("{}", solved_elements(&flight.parameters().build)?);
+        return Ok(());
+    }
     let omega = &modes.omega_rad_per_s;
     let ratio = |i: usize| vehicle.damping[i][i] / (2.0 * omega[i]);
     let slosh = |i: usize| modes.slosh_displacement.map(|tank| tank[i]);

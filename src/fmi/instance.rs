@@ -103,7 +103,7 @@ impl Instance {
         self.flight.set_experiment(start, tolerance);
         self.life.stop = Some(stop);
         self.log.push(Status::Ok, || {
-            format!("start at t = {start} s, relative tolerance {tolerance:e}")
+            format!("fmi2SetupExperiment: start at {start} s, relative tolerance {tolerance:e}")
         });
         Ok(())
     }
@@ -131,7 +131,10 @@ impl Instance {
         if let Some(trim) = self.flight.trim() {
             let (alpha, [delta_e, phi]) = (trim.state[3], trim.control);
             self.log.push(Status::Ok, || {
-                format!("initial alpha = {alpha} rad, delta_e = {delta_e} rad, phi = {phi}")
+                format!(
+                    "fmi2ExitInitializationMode: start with alpha = {alpha} rad, \
+                     delta_e = {delta_e} rad, phi = {phi}"
+                )
             });
         }
         Ok(())
@@ -244,7 +247,7 @@ impl Instance {
     /// # Errors
     /// [`Failure::Model`] if the flight cannot be rebuilt.
     pub fn set_state(&mut self, state: &FmuState) -> Outcome {
-        self.flight = Flight::restore(&state.flight)?;
+        self.flight.rewind(&state.flight)?;
         self.life = state.life;
         Ok(())
     }

@@ -20,8 +20,10 @@ use crate::error::Error;
 
 /// Heave and pitch.
 const RIGID: usize = 2;
-/// Steps between looks at the small eigenproblem.
-const STRIDE: usize = 6;
+/// Vectors for each mode before the first look at the small eigenproblem: fewer never suffice.
+const FIRST_LOOK: usize = 3;
+/// Steps between later looks.
+const STRIDE: usize = 3;
 /// Vectors at which the search is given up; 24 are usual.
 const LARGEST_BASIS: usize = 240;
 /// Residual over eigenvalue at which a mode counts as found. The error of omega goes with its
@@ -167,7 +169,9 @@ pub(super) fn lowest_modes(structure: &Structure, count: usize) -> Result<Vec<Pa
     let mut columns: Vec<Vec<f64>> = Vec::new();
     loop {
         let exhausted = basis.vectors.len() <= RIGID + columns.len();
-        if exhausted || (columns.len() > count && columns.len().is_multiple_of(STRIDE)) {
+        if exhausted
+            || (columns.len() >= FIRST_LOOK * count && columns.len().is_multiple_of(STRIDE))
+        {
             let ritz = jacobi::eigen(leading_block(&columns));
             let found = |i: usize, tolerance: f64| {
                 let (flexibility, weights) = &ritz[i];

@@ -2,7 +2,8 @@
 #![allow(dead_code, missing_docs)]
 
 use ahv::dynamics::Vehicle;
-use ahv::flight::{Flight, Parameters};
+use ahv::flight::Flight;
+use ahv::parameters::Parameters;
 use ahv::vehicle::{Build, Configuration, Data};
 
 pub const CONFIGURATIONS: [Configuration; 3] =
