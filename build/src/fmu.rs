@@ -43,7 +43,7 @@ impl Fmu {
         Ok(Self { directory, binary: path, model })
     }
 
-    /// URI of the resources.
+    /// URI of the resources, for the sake of the interface: an FMU may look there.
     pub fn resources(&self) -> String {
         format!("file://{}", self.directory.path().join("resources").display())
     }

@@ -3,7 +3,7 @@
 use crate::panels::{PANELS, Panel};
 use crate::raster;
 use crate::record::Record;
-use crate::workspace::{read, write};
+use crate::workspace::write;
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -24,7 +24,7 @@ const LEFT: u32 = 54;
 const LABELS: usize = 7;
 const FONT: &str = "sans-serif";
 
-/// Okabe and Ito's palette, in the order of its contrast on white: blue, vermillion, green.
+/// Blue, vermillion and green of Okabe and Ito's palette, which colour-blind readers tell apart.
 const COLOURS: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115)];
 const GRID: RGBColor = RGBColor(225, 225, 225);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
@@ -35,11 +35,9 @@ pub fn write_figures(record: &Record, directory: &Path) -> Result<[PathBuf; 2]> 
     register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
         .map_err(|_| anyhow!("the built-in font cannot be read"))?;
     let (svg, png) = (directory.join("flight.svg"), directory.join("flight.png"));
-    draw(&SVGBackend::new(&svg, SIZE).into_drawing_area(), record, 1)?;
-    // An empty file means that nothing was drawn, which plotters does not report.
-    if read(&svg)?.is_empty() {
-        return Err(anyhow!("{} stayed empty", svg.display()));
-    }
+    let mut text = String::new();
+    draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), record, 1)?;
+    write(&svg, text)?;
 
     let (width, height) = (SIZE.0 * DRAWN, SIZE.1 * DRAWN);
     let mut pixels = vec![0; width as usize * height as usize * 3];

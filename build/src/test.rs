@@ -17,7 +17,7 @@ const STEPS: [Step; 7] = [
     ("lints", || {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
     }),
-    ("Rust tests", || check(cargo().args(["test", "--workspace"]))),
+    ("Rust tests", || check(cargo().args(["test", "--workspace", "--no-fail-fast"]))),
     ("description", || describe::run(&Describe { check: true, file: None })),
     ("package", || package::build().map(|file| println!("{}", shown(&file)))),
     ("FMU tests", fmu_tests),
