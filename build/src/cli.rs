@@ -74,7 +74,7 @@ Examples:
   cargo ahv fly
   cargo ahv fly --input examples/throttle_step.csv --set configuration=Rigid
   cargo ahv fly --set mach0=9 --set altitude0=27000 --stop 1
-  cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output /tmp/climb")]
+  cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output target/climb")]
 pub struct Fly {
     /// Inputs over time [default: examples/elevator_doublet.csv]
     #[arg(long, value_name = "FILE.csv")]
