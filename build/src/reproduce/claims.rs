@@ -171,7 +171,7 @@ fn direction(change: Option<f64>, least: f64, otherwise: &str) -> Verdict {
         None => not("there is no such pole or zero at the start of the way"),
         Some(change) if change >= least => Verdict::CLAIMED,
         Some(change) if change > 0.0 => sign_only(format!("by {} only", percent(change))),
-        Some(change) => not(format!("{otherwise} ({})", percent(-change))),
+        Some(change) => not(format!("{otherwise}, by {:.1} %", 100.0 * change.abs())),
     }
 }
 
@@ -241,7 +241,11 @@ fn poles_approach(evidence: &Evidence) -> Outcome {
     let verdict = match smallest(&measures, -1.0) {
         Some(change) if change < 0.0 => {
             let farthest = largest(&measures).map_or(0.0, |m| m.change);
-            not(format!("a pole moves away from the axis, by {}", percent(farthest)))
+            not(format!(
+                "they move away from it, by {:.1} % at most: real poles have no frequency to \
+                 meet that of the liquid",
+                100.0 * farthest.abs()
+            ))
         }
         change => direction(change, HARDLY, "the poles move away"),
     };
@@ -294,7 +298,7 @@ fn zero_approaches(evidence: &Evidence) -> Outcome {
     // Both: a zero that comes back at the end does not narrow the band there.
     let verdict = match measures[1].change < 0.0 {
         true => direction(Some(-measures[0].change), HARDLY, "it moves away"),
-        false => not(format!("from 20 rad/s on it moves away ({})", percent(measures[1].change))),
+        false => not(format!("from 20 rad/s on it moves away, by {}", percent(measures[1].change))),
     };
     Outcome { verdict, measures }
 }

@@ -10,6 +10,8 @@ use serde::Serialize;
 
 /// Sloshing frequencies, rad/s, at which zeros are quoted.
 const QUOTED: [f64; 5] = [2.0, 5.0, 10.0, 20.0, 30.0];
+/// What a limit at the end of the flight is of.
+pub const EMPTY: &str = "sloshing mass, empty tanks";
 /// rad/s: the first flexible mode and the liquid share their energy there.
 pub const HYBRID: f64 = 20.0;
 
@@ -48,6 +50,8 @@ pub struct Limit {
     pub of: &'static str,
     pub pole: f64,
     pub zero: f64,
+    /// Of the first aeroelastic pole, rad/s; none for a rigid body.
+    pub flexible: Option<f64>,
     /// (z + p)/(z - p): least peak of the sensitivity of a single loop with both.
     pub peak: f64,
 }
@@ -110,6 +114,13 @@ fn real_zeros(of: String, zeros: &[Root]) -> Option<RealZeros> {
     Some(RealZeros { of, right, left, sum: right + left })
 }
 
+fn limit(of: &'static str, point: &Point) -> Option<Limit> {
+    let pole = find(&point.poles, Name::UnstableShortPeriod)?.value.re;
+    let zero = find(&point.zeros, Name::RightZero)?.value.re;
+    let flexible = find(&point.poles, Name::Flexible(0)).map(Root::frequency);
+    Some(Limit { of, pole, zero, flexible, peak: (zero + pole) / (zero - pole).abs() })
+}
+
 impl Interaction {
     pub fn new(data: &Data, base: &Build, points: &[Point; 3], frequency: &Sweep) -> Result<Self> {
         let slosh = &points[2];
@@ -144,14 +155,13 @@ impl Interaction {
             }));
         }
 
+        let empty = Build { configuration: Configuration::SloshBeam, fuel_fraction: 0.0, ..*base };
+        let empty = Point::new(data, &empty)?;
         let limits = COLUMNS
             .into_iter()
             .zip(points)
-            .filter_map(|(of, point)| {
-                let pole = find(&point.poles, Name::UnstableShortPeriod)?.value.re;
-                let zero = find(&point.zeros, Name::RightZero)?.value.re;
-                Some(Limit { of, pole, zero, peak: (zero + pole) / (zero - pole).abs() })
-            })
+            .chain([(EMPTY, &empty)])
+            .filter_map(|(of, point)| limit(of, point))
             .collect();
         let names =
             [Name::Slosh(0), Name::Slosh(1)].into_iter().chain([0, 1, 2].map(Name::Flexible));
@@ -179,8 +189,10 @@ impl Interaction {
         })
     }
 
-    /// What becomes of a root if the slosh modes are dropped.
-    pub fn dropped(&self, order: usize, kind: &str, name: Name) -> Option<&Dropped> {
-        self.orders[order].roots.iter().find(|root| root.kind == kind && root.name == name)
+    /// By how much a root moves if the slosh modes are dropped.
+    pub fn moved(&self, order: usize, kind: &str, name: Name) -> f64 {
+        let roots = &self.orders[order].roots;
+        let found = roots.iter().find(|root| root.kind == kind && root.name == name);
+        found.and_then(|root| root.moved).unwrap_or(0.0)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::claims::Tested;
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
-use super::tables::{COLUMNS, Table};
+use super::tables::{COLUMNS, Cell, REASONS, Table};
 use super::verdict::RANKS;
 use super::{advice, interaction::Interaction};
 use crate::table::number;
@@ -62,8 +62,11 @@ pub fn percent(change: f64) -> String {
         1.0.. => 1,
         _ => 2,
     };
-    let text = format!("{percent:+.digits$} %");
-    text.replace('-', "\u{2212}")
+    let text = format!("{percent:+.digits$}");
+    // What rounds to zero has no sign.
+    let zero = !text.contains(|c| matches!(c, '1'..='9'));
+    let text = if zero { text.replace(['+', '-'], "") } else { text };
+    text.replace('-', "\u{2212}") + " %"
 }
 
 pub fn complex([re, im]: [f64; 2]) -> String {
@@ -74,7 +77,7 @@ pub fn render(report: &Report) -> String {
     let mut text = format!("# The paper's results beside ours\n\n{}\n\n", escape(PAPER));
     text += &format!(
         "Computed by ahv {}. All values in rad/s unless said otherwise; all quantities per metre of \
-         vehicle width. Differences are relative to the printed number.\n\n",
+         vehicle width. Difference is ours/paper \u{2212} 1: positive if ours is larger in size.\n\n",
         report.version
     );
     text += &summary(report);
@@ -87,6 +90,7 @@ pub fn render(report: &Report) -> String {
         text += &set_report(set, report.sets.len() > 1);
     }
     if !report.veering.is_empty() {
+        text += "## Slosh and beam: which mode is which\n\n![Veering](figures/veering.svg)\n\n";
         text += &advice::structure(&report.veering);
     }
     for set in &report.sets {
@@ -161,6 +165,18 @@ fn cells(of: &Table) -> String {
     text
 }
 
+/// In full, once, what the cells say in two words.
+fn reasons(tables: &[Table]) -> String {
+    let mut text = "**The reasons in full**\n\n".to_string();
+    for (short, long) in REASONS {
+        let given = |cell: &Cell| cell.verdict.because() == Some(short);
+        if tables.iter().flat_map(|table| &table.cells).any(given) {
+            text += &format!("* *{}:* {}\n", escape(short), escape(long));
+        }
+    }
+    text + "\n"
+}
+
 fn figures(figures: &[Figure]) -> String {
     let mut text = String::new();
     for figure in figures {
@@ -185,6 +201,9 @@ fn set_report(set: &SetReport, many: bool) -> String {
     for table in &set.tables {
         text += &format!("## Table {}{about}\n\n{}\n\n", table.number, escape(table.title));
         text += &cells(table);
+    }
+    if !set.tables.is_empty() {
+        text += &reasons(&set.tables);
     }
     text += &figures(&set.figures);
     if !set.claims.is_empty() {
@@ -253,6 +272,7 @@ fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> S
         .map(|zeros| [zeros.of.clone(), value(zeros.right), value(zeros.left), value(zeros.sum)])
         .collect();
     text += &table(["", "right", "left", "sum"], 0, &rows);
+    text += "**What a control designer should take from it**\n\n";
     text += &advice::designer(interaction, &report.veering);
     text
 }

@@ -4,7 +4,7 @@ use super::roots::{Metric, Root, name_poles, name_zeros, roots};
 use ahv::beam::{Beam, Oscillator};
 use ahv::dynamics::{RIGID, Vehicle};
 use ahv::linear::{Linear, OUTPUT_STATES};
-use ahv::modes::{FLEXIBLE, MODES, Modes, SLOSH};
+use ahv::modes::{FLEXIBLE, Modes, SLOSH};
 use ahv::trim::{Trim, trim};
 use ahv::vehicle::{Build, Configuration, Data, structure};
 use anyhow::{Context, Result};
@@ -13,12 +13,9 @@ use nalgebra::DMatrix;
 /// All that the report needs to know of one vehicle.
 #[derive(Debug, Clone)]
 pub struct Point {
-    pub configuration: Configuration,
     pub vehicle: Vehicle,
-    pub trim: Trim,
     pub linear: Linear,
     pub metric: Metric,
-    pub modes: Modes,
     pub poles: Vec<Root>,
     pub zeros: Vec<Root>,
 }
@@ -46,8 +43,7 @@ impl Point {
         let metric = metric(&vehicle, &trim, &beam, &oscillators, &modes);
         let slosh = vehicle.modes.saturating_sub(FLEXIBLE);
         let [poles, zeros] = named_roots(&linear, &metric, slosh, vehicle.modes > 0);
-        let configuration = build.configuration;
-        Ok(Self { configuration, vehicle, trim, linear, metric, modes, poles, zeros })
+        Ok(Self { vehicle, linear, metric, poles, zeros })
     }
 
     /// Poles and zeros if the slosh modes are left out of the equations of flight.
@@ -61,11 +57,6 @@ impl Point {
         let matrix = self.metric.matrix.columns(0, kept).into_owned();
         let metric = Metric { matrix, sloshing: self.metric.sloshing };
         named_roots(&linear, &metric, 0, true)
-    }
-
-    /// Part of each mode's strain energy that is in the springs of the sloshing masses.
-    pub fn spring_shares(&self) -> [f64; MODES] {
-        self.modes.beam_energy_share.map(|share| 1.0 - share)
     }
 }
 

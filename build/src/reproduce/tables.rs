@@ -15,7 +15,7 @@ pub struct Cell {
     pub column: &'static str,
     pub paper: f64,
     pub ours: Option<f64>,
-    /// (ours - paper)/|paper|.
+    /// ours/paper - 1.
     pub difference: Option<f64>,
     #[serde(flatten)]
     pub verdict: Verdict,
@@ -37,15 +37,51 @@ pub struct Table {
     pub unprinted: Vec<Unprinted>,
 }
 
-const INERTIA: &str = "its size goes with the pitch inertia, printed wrong (erratum 3)";
-const DAMPING: &str = "structural damping is not printed; what the air adds is derived, not fitted";
-const DRIVE: &str = "the place of a zero is decided by how the controls drive the mode, and those coefficients are not public (erratum 17)";
-const STIFFNESS: &str =
-    "the air's stiffness on the mode is derived, since C^η and N_i are not public (erratum 17)";
-const BALANCE: &str = "the difference of forces that balance in trim, sensitive to every slope";
-const PHUGOID: &str =
-    "erratum 13 again; elasticity shifts the frequency by less than it would take";
-const NEUTRAL: &str = "neutral but for the deflection and gravity: erratum 15 with its small print";
+const INERTIA: &str = "pitch inertia";
+const DAMPING: &str = "structural damping";
+const DRIVE: &str = "drive of the mode";
+const STIFFNESS: &str = "elastic coefficients";
+const BALANCE: &str = "balanced forces";
+const PHUGOID: &str = "scale height";
+const NEUTRAL: &str = "nearly neutral";
+
+/// The reasons in full.
+pub const REASONS: [(&str, &str); 7] = [
+    (
+        INERTIA,
+        "the size of the short period and of the real zeros goes with 1/sqrt(I_yy), and the printed \
+         I_yy is none of a vehicle that has the printed poles (erratum 3).",
+    ),
+    (
+        DAMPING,
+        "the paper does not print its structural damping; what the air adds to it is derived here \
+         from the mode shapes, not fitted (erratum 17).",
+    ),
+    (
+        DRIVE,
+        "a zero lies where elevator and fuel leave V and gamma alone, so its place is decided by how \
+         the controls drive the mode. Those coefficients are not public (erratum 17). Ours are \
+         weak: each zero stays close to its pole.",
+    ),
+    (
+        STIFFNESS,
+        "the air's stiffness on a mode is derived, since C^eta and N_i are not public (erratum 17).",
+    ),
+    (
+        BALANCE,
+        "the real part is what is left of forces that balance in trim: a thousandth of any of them.",
+    ),
+    (
+        PHUGOID,
+        "erratum 13 again. Elasticity lowers the frequency by a tenth; the printed one is lower by a \
+         third.",
+    ),
+    (
+        NEUTRAL,
+        "all forces go with dynamic pressure, so flight along a line of equal dynamic pressure is \
+         neutral but for gravity and the static deflection (erratum 15).",
+    ),
+];
 
 struct Builder {
     cells: Vec<Cell>,

@@ -63,6 +63,14 @@ impl Verdict {
         }
     }
 
+    /// Why not, if it is a matter of reasons.
+    pub fn because(&self) -> Option<&str> {
+        match self {
+            Self::SignOnly { because } | Self::NotReproduced { because } => Some(because),
+            _ => None,
+        }
+    }
+
     /// Column in a count of verdicts.
     pub fn rank(&self) -> usize {
         match self {
@@ -78,9 +86,10 @@ impl Verdict {
 pub const RANKS: [&str; 4] =
     ["✓ reproduced", "◐ in sign only", "✗ not reproduced", "∅ impossible: erratum"];
 
-/// (ours - paper)/|paper|; none where the paper prints 0.
+/// ours/paper - 1: positive if ours is larger in size, below -1 if the sign differs; none where the
+/// paper prints 0.
 pub fn difference(paper: f64, ours: f64) -> Option<f64> {
-    (paper != 0.0).then(|| (ours - paper) / paper.abs())
+    (paper != 0.0).then(|| ours / paper - 1.0)
 }
 
 #[cfg(test)]
@@ -106,8 +115,9 @@ mod tests {
     }
 
     #[test]
-    fn differences_are_relative_to_the_size_of_the_paper() {
-        assert_eq!(difference(-2.0, -3.0), Some(-0.5));
+    fn differences_compare_sizes() {
+        assert_eq!(difference(-2.0, -3.0), Some(0.5));
+        assert_eq!(difference(-2.0, 2.0), Some(-2.0));
         assert_eq!(difference(0.0, 1.0), None);
     }
 }

@@ -74,8 +74,8 @@ impl Axes<'_> {
             .set_all_tick_mark_size(4 * scale)
             .label_style(small.clone())
             .axis_desc_style(small)
-            .x_label_formatter(&|value| label(*value, x_decimals))
-            .y_label_formatter(&|value| label(*value, y_decimals))
+            .x_label_formatter(&|value| label(*value, x_decimals).replace('-', "\u{2212}"))
+            .y_label_formatter(&|value| label(*value, y_decimals).replace('-', "\u{2212}"))
             .x_desc(self.names[0])
             .y_desc(self.names[1])
             .draw()?;

@@ -31,7 +31,8 @@ impl Drawing for Stiffness<'_> {
         let axes = Axes {
             title: "Bending stiffness EI per metre of width: identified stations, 500 elements",
             names: ["x from the nose, m", "EI, GN m²/m"],
-            x: [0.0, self.beam.length_m()],
+            // Some air for the markers at the ends.
+            x: [-0.02, 1.02].map(|share| share * self.beam.length_m()),
             y: [0.0, top],
         };
         let plot = axes.draw(&inner, scale)?;
