@@ -1,10 +1,13 @@
 //! The text about the interaction, written around the computed numbers.
 
 use super::interaction::{EMPTY, HYBRID, Interaction, Limit};
-use super::markdown::{percent, value};
+use super::markdown::{minus, percent};
 use super::roots::Name;
 use super::tables::COLUMNS;
 use super::veering::Veering;
+
+/// Pole and zero closer than this, against the frequency, hide a mode from a loop.
+const HIDDEN: f64 = 0.03;
 
 fn share(part: f64) -> String {
     match part {
@@ -12,6 +15,12 @@ fn share(part: f64) -> String {
         ..0.1 => format!("{:.1} %", 100.0 * part),
         _ => format!("{:.0} %", 100.0 * part),
     }
+}
+
+/// Three digits, for prose.
+fn short(number: f64) -> String {
+    let digits = (2.0 - number.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+    minus(format!("{number:.digits$}"))
 }
 
 /// What the structure alone does.
@@ -70,11 +79,11 @@ pub fn coupling(interaction: &Interaction) -> String {
             "**Asymmetry of the zeros.** The real zeros of a rigid body are exactly ±. What answers \
              to rates (modal damping, dampers in the tanks, air on a beam that moves) breaks that: \
              their sum is {} with even mass and {} with sloshing mass. ",
-            value(even),
-            value(slosh)
+            short(even),
+            short(slosh)
         );
         if let Some(largest) = largest {
-            text += &format!("The largest here is {} ({}). ", value(largest.sum), largest.of);
+            text += &format!("The largest here is {} ({}). ", short(largest.sum), largest.of);
         }
         text += "The paper prints sums of −1.79, −1.80 and −2.11, the first of them for a rigid \
                  body: sloshing cannot be their cause.\n\n";
@@ -92,11 +101,11 @@ pub fn designer(interaction: &Interaction, veering: &[Veering]) -> String {
             "* **The window is set by the rigid body, and slosh moves its frames.** A loop has to be \
              faster than the pole at {} and slower than the zero at {} rad/s. A single loop that \
              contains both has a sensitivity peak of at least (z + p)/(z − p) = {:.2}; for the rigid \
-             body it is {:.2}. Two loops on V and γ may do better where the directions of pole and \
-             zero differ, but no filter can. Another control surface or another output moves the \
-             zero; a controller does not.\n",
-            value(slosh.pole),
-            value(slosh.zero),
+             body it is {:.2}. Two loops, on V and γ, can do better only as far as the directions of \
+             pole and zero differ. Another control surface or another output moves the zero; a \
+             controller does not.\n",
+            short(slosh.pole),
+            short(slosh.zero),
             slosh.peak,
             rigid.peak
         );
@@ -105,10 +114,10 @@ pub fn designer(interaction: &Interaction, veering: &[Veering]) -> String {
         text += &format!(
             "* **Fuel moves everything.** From full to empty the pole goes from {} to {}, the zero \
              from {} to {}, and the least peak from {:.2} to {:.2}. ",
-            value(full.pole),
-            value(empty.pole),
-            value(full.zero),
-            value(empty.zero),
+            short(full.pole),
+            short(empty.pole),
+            short(full.zero),
+            short(empty.zero),
             full.peak,
             empty.peak
         );
@@ -123,23 +132,29 @@ pub fn designer(interaction: &Interaction, veering: &[Veering]) -> String {
     let mut slosh = interaction.dipoles.iter().filter(|d| matches!(d.name, Name::Slosh(_)));
     if let (Some(a), Some(b)) = (slosh.next(), slosh.next()) {
         let frequency = |[re, im]: [f64; 2]| f64::hypot(re, im);
+        let [first, second] = [frequency(a.pole), frequency(b.pole)].map(short);
+        let [near, far] = [a.apart, b.apart].map(share);
         text += &format!(
-            "* **Slosh is hardly seen, and hardly helped.** With full tanks the slosh poles at {:.1} \
-             and {:.1} rad/s stand {} and {} from a zero. Elevator and fuel barely move the liquid as \
-             seen from V and γ, so eleven states serve to shape the loop. But a loop that cannot move \
-             the liquid cannot damp it either: its damping comes from baffles. Keep the fifteen \
-             states for the check of margins and for limits on the liquid's motion.\n",
-            frequency(a.pole),
-            frequency(b.pole),
-            share(a.apart),
-            share(b.apart)
+            "* **How much of the liquid the loop sees.** With full tanks the slosh poles at {first} \
+             and {second} rad/s stand {near} and {far} of their frequency from a zero. "
         );
+        text += match f64::max(a.apart, b.apart) < HIDDEN {
+            true => {
+                "So elevator and fuel barely move the liquid as seen from V and γ, and eleven states \
+                 serve to shape the loop. But a loop that cannot move the liquid cannot damp it \
+                 either: its damping comes from baffles. Keep the fifteen states for the check of \
+                 margins and for limits on the liquid's motion.\n"
+            }
+            false => {
+                "That is far enough for the loop to move the liquid, for better or worse: shape it \
+                 on fifteen states.\n"
+            }
+        };
     }
-    let exchanges: Vec<_> = veering
-        .iter()
-        .filter_map(|column| column.exchange)
-        .map(|exchange| format!("{:.0}", exchange.slosh_frequency))
-        .collect();
+    let mut exchanges: Vec<_> =
+        veering.iter().filter_map(|column| Some(column.exchange?.slosh_frequency)).collect();
+    exchanges.sort_by(f64::total_cmp);
+    let exchanges: Vec<_> = exchanges.into_iter().map(|at| format!("{at:.0}")).collect();
     text += &format!(
         "* **Keep the liquid's frequency away from the beam's.** At {HYBRID} rad/s and half fuel the \
          first aeroelastic pole carries {} of its elastic energy in the liquid and its damping ratio \

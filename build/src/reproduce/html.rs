@@ -1,6 +1,6 @@
 //! The report as one HTML file that needs no other.
 
-use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, html};
+use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, TextMergeStream, html};
 
 const STYLE: &str = include_str!("report.css");
 
@@ -10,7 +10,8 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
     let mut events = Vec::new();
     let mut heading: Option<String> = None;
     let mut image = false;
-    for event in Parser::new_ext(markdown, Options::ENABLE_TABLES) {
+    // Escaped letters arrive one by one: a verdict has to be whole.
+    for event in TextMergeStream::new(Parser::new_ext(markdown, Options::ENABLE_TABLES)) {
         match event {
             Event::Start(Tag::Image { dest_url, .. }) => {
                 image = true;
@@ -99,5 +100,28 @@ fn escape(text: &mut String, words: &str) {
             '"' => text.push_str("&quot;"),
             _ => text.push(letter),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::markdown::table;
+
+    #[test]
+    fn text_stays_text() {
+        let rows = [["a|b <i> & *c* I_yy".to_string(), "✗ x < y".to_string()]];
+        let page = render(&table(["", ""], 1, &rows), "t", |_| None);
+        assert!(page.contains("a|b &lt;i&gt; &amp; *c* I_yy"), "{page}");
+        assert!(page.contains("<span class=\"no\">✗ x &lt; y</span>"), "{page}");
+    }
+
+    #[test]
+    fn drawings_are_inside_the_page() {
+        let page = render("## A & B\n\n![A](figures/a.svg)\n", "t", |link| {
+            Some(format!("<svg>{link}</svg>"))
+        });
+        assert!(page.contains("<svg>figures/a.svg</svg>") && !page.contains("<img"), "{page}");
+        assert!(page.contains(">A &amp; B</a>"), "{page}");
     }
 }

@@ -60,8 +60,7 @@ pub const REASONS: [(&str, &str); 7] = [
     (
         DRIVE,
         "a zero lies where elevator and fuel leave V and gamma alone, so its place is decided by how \
-         the controls drive the mode. Those coefficients are not public (erratum 17). Ours are \
-         weak: each zero stays close to its pole.",
+         the controls drive the mode. Those coefficients are not public (erratum 17).",
     ),
     (
         STIFFNESS,
@@ -69,12 +68,11 @@ pub const REASONS: [(&str, &str); 7] = [
     ),
     (
         BALANCE,
-        "the real part is what is left of forces that balance in trim: a thousandth of any of them.",
+        "the real part is what is left of forces that balance in trim: small beside any of them.",
     ),
     (
         PHUGOID,
-        "erratum 13 again. Elasticity lowers the frequency by a tenth; the printed one is lower by a \
-         third.",
+        "erratum 13 again. Elasticity lowers the frequency by far less than the printed values ask.",
     ),
     (
         NEUTRAL,

@@ -104,7 +104,7 @@ mod tests {
     fn verdicts_follow_size_and_sign() {
         let within = |limit| Verdict::Reproduced { within_percent: Some(limit) };
         assert_eq!(Verdict::of(19.72, Some(19.721), true, ""), within(0.1));
-        assert_eq!(Verdict::of(-2.0, Some(-2.1), true, ""), within(5.0));
+        assert_eq!(Verdict::of(-2.0, Some(-2.09), true, ""), within(5.0));
         assert_eq!(Verdict::of(0.0, Some(1e-9), true, ""), within(0.0));
         assert_eq!(rank(3.173, 1.7, true), 1);
         assert_eq!(rank(3.173, -3.173, true), 2);

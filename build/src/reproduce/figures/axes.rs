@@ -117,8 +117,7 @@ impl<B: DrawingBackend> Plot<B> {
     ) -> Drawn<B> {
         let points: Vec<_> = points.iter().map(|point| self.place(*point)).collect();
         let (dash, gap) = (dash * self.scale, gap * self.scale);
-        let element =
-            plotters::element::DashedPathElement::new(points.into_iter(), dash, gap, style);
+        let element = plotters::element::DashedPathElement::new(points, dash, gap, style);
         self.area.draw(&element)
     }
 
