@@ -1,5 +1,6 @@
 //! Run-time curve fits: eq. (4).
 
+use crate::envelope::Envelope;
 use crate::modes::MODES;
 use crate::params::{AeroData, PolynomialData};
 use crate::scalar::Scalar;
@@ -85,17 +86,6 @@ pub struct Elastic {
     pub inflow: ElasticTerm,
     /// N_i.
     pub force: [ModalForce; MODES],
-}
-
-/// Limits within which the fits hold: incidence (rad), Mach number, altitude (m).
-#[derive(Debug, Clone, Copy)]
-pub struct Envelope {
-    /// Incidence, rad.
-    pub alpha: [f64; 2],
-    /// Mach number.
-    pub mach: [f64; 2],
-    /// Altitude, m.
-    pub altitude: [f64; 2],
 }
 
 /// A coefficient set, without its elastic terms.

@@ -11,39 +11,69 @@
 //! reference incidence. The pitch rate enters the modal forces only: the published rigid part has
 //! no q-derivatives, and eq. (4) has none.
 
-use crate::aero::{Aero, Elastic, ElasticTerm, ModalForce};
+use crate::aero::{Aero, Elastic, ModalForce};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
-use crate::modes::Modes;
+use crate::modes::{MODES, Modes};
 
 /// A part of the body that answers to local incidence.
 struct Surface {
-    /// Places with weights that add up to one.
-    points: Vec<Point>,
-    /// Lift coefficient as a polynomial in the incidence, of the undeformed body.
+    /// Lift coefficient of the undeformed body as a polynomial in the incidence.
     load: [f64; 3],
     /// Its slope at the reference incidence, per rad.
     slope: f64,
+    /// Averages of the mode shapes.
+    mean: Means,
 }
 
-impl Surface {
-    fn mean(&self, f: impl Fn(&Point) -> f64) -> f64 {
-        self.points.iter().map(|point| point.weight * f(point)).sum()
-    }
+/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products; x from the
+/// moment centre.
+#[derive(Default)]
+struct Means {
+    x: f64,
+    phi: [f64; MODES],
+    slope: [f64; MODES],
+    x_phi: [f64; MODES],
+    x_slope: [f64; MODES],
+    phi_phi: [[f64; MODES]; MODES],
+    phi_slope: [[f64; MODES]; MODES],
 }
 
-fn strip(beam: &Beam, [from, to]: [f64; 2], load: [f64; 3], alpha: f64) -> Surface {
-    let mut points: Vec<Point> = beam.gauss_points(from, to).collect();
-    for point in &mut points {
-        point.weight /= to - from;
+impl Means {
+    /// Averages over places whose weights add up to `total`.
+    fn over(
+        points: impl Iterator<Item = Point>,
+        total: f64,
+        shapes: &[Shape],
+        moment_centre: f64,
+    ) -> Self {
+        let mut mean = Self::default();
+        let (mut phi, mut slope) = ([0.0; MODES], [0.0; MODES]);
+        for point in points {
+            let (weight, x) = (point.weight / total, point.x - moment_centre);
+            for (i, shape) in shapes.iter().enumerate() {
+                phi[i] = shape.w_at(&point);
+                slope[i] = shape.slope_at(&point);
+            }
+            mean.x += weight * x;
+            for i in 0..shapes.len() {
+                mean.phi[i] += weight * phi[i];
+                mean.slope[i] += weight * slope[i];
+                mean.x_phi[i] += weight * x * phi[i];
+                mean.x_slope[i] += weight * x * slope[i];
+                for k in 0..shapes.len() {
+                    mean.phi_phi[i][k] += weight * phi[i] * phi[k];
+                    mean.phi_slope[i][k] += weight * phi[i] * slope[k];
+                }
+            }
+        }
+        mean
     }
-    Surface { points, load, slope: load[1] + 2.0 * load[2] * alpha }
 }
 
 /// The two strips and the elevator.
-fn surfaces(aero: &Aero, beam: &Beam, fore_body: f64) -> [Surface; 3] {
+fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surface; 3] {
     let [elevator_lift, elevator_moment] = [aero.lift.delta_e[0], aero.moment.delta_e[0]];
-    let alpha = aero.elastic_alpha;
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
         let own = f64::from(power == 1);
@@ -52,20 +82,29 @@ fn surfaces(aero: &Aero, beam: &Beam, fore_body: f64) -> [Surface; 3] {
             aero.moment.alpha[power] - own * elevator_moment,
         ]
     });
-    let ends = [[0.0, fore_body], [fore_body, beam.length_m()]];
-    let [fore_arm, aft_arm] = ends.map(|[from, to]| 0.5 * (from + to) - aero.moment_centre);
-    // c_1 + c_2 = C_L and -(fore_arm c_1 + aft_arm c_2) = chord C_M.
+    let strip = |from: f64, to: f64| {
+        let points = beam.gauss_points(from, to);
+        Means::over(points, to - from, shapes, aero.moment_centre)
+    };
+    let [fore, aft] = [strip(0.0, fore_body), strip(fore_body, beam.length_m())];
+    // c_1 + c_2 = C_L and -(x_1 c_1 + x_2 c_2) = chord C_M.
     let split = body.map(|[lift, moment]| {
-        let fore = (lift * aft_arm + moment * aero.chord) / (aft_arm - fore_arm);
-        [fore, lift - fore]
+        let first = (lift * aft.x + moment * aero.chord) / (aft.x - fore.x);
+        [first, lift - first]
     });
-    let mut elevator =
-        beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
-    elevator.weight = 1.0;
+    let mut place = beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
+    place.weight = 1.0;
+    let elevator = Means::over([place].into_iter(), 1.0, shapes, aero.moment_centre);
+
+    let surface = |load: [f64; 3], mean: Means| Surface {
+        load,
+        slope: load[1] + 2.0 * load[2] * aero.elastic_alpha,
+        mean,
+    };
     [
-        strip(beam, ends[0], split.map(|[fore, _]| fore), alpha),
-        strip(beam, ends[1], split.map(|[_, aft]| aft), alpha),
-        Surface { points: vec![elevator], load: [0.0, elevator_lift, 0.0], slope: elevator_lift },
+        surface(split.map(|[first, _]| first), fore),
+        surface(split.map(|[_, second]| second), aft),
+        surface([0.0, elevator_lift, 0.0], elevator),
     ]
 }
 
@@ -79,55 +118,41 @@ pub fn derive(
     fore_body: f64,
     mass_centre: f64,
 ) -> Elastic {
-    let surfaces = surfaces(aero, beam, fore_body);
-    let sum = |f: &dyn Fn(&Surface) -> f64| surfaces.iter().map(f).sum::<f64>();
-    let arm = |point: &Point| (point.x - aero.moment_centre) / aero.chord;
+    let surfaces = surfaces(aero, beam, &modes.shape, fore_body);
+    // Sum over the surfaces of lift slope times an average.
+    let answer =
+        |f: &dyn Fn(&Means) -> f64| surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>();
     let drag_per_lift = aero.drag.slope(aero.elastic_alpha) / aero.lift.slope(aero.elastic_alpha);
+    let shift = mass_centre - aero.moment_centre;
 
     let mut elastic = Elastic::default();
-    for (i, shape) in modes.shape.iter().enumerate() {
-        elastic.lift.eta[i] = -sum(&|s| s.slope * s.mean(|p| shape.slope_at(p)));
-        elastic.lift.rate[i] = -sum(&|s| s.slope * s.mean(|p| shape.w_at(p)));
-        elastic.moment.eta[i] = sum(&|s| s.slope * s.mean(|p| arm(p) * shape.slope_at(p)));
-        elastic.moment.rate[i] = sum(&|s| s.slope * s.mean(|p| arm(p) * shape.w_at(p)));
+    for i in 0..modes.shape.len() {
+        elastic.lift.eta[i] = -answer(&|m| m.slope[i]);
+        elastic.lift.rate[i] = -answer(&|m| m.phi[i]);
+        elastic.moment.eta[i] = answer(&|m| m.x_slope[i]) / aero.chord;
+        elastic.moment.rate[i] = answer(&|m| m.x_phi[i]) / aero.chord;
         // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
         elastic.drag.eta[i] = drag_per_lift * elastic.lift.eta[i];
         elastic.drag.rate[i] = drag_per_lift * elastic.lift.rate[i];
         // The engine swallows what the fore-body has turned.
-        elastic.inflow.eta[i] = -surfaces[0].mean(|p| shape.slope_at(p));
-        elastic.inflow.rate[i] = -surfaces[0].mean(|p| shape.w_at(p));
-        elastic.force[i] = force(
-            &surfaces,
-            shape,
-            &modes.shape,
-            aero.lift.delta_e[0],
-            mass_centre,
-            modes.modal_mass[i],
-        );
+        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i];
+        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i];
+
+        let per_mass = 1.0 / modes.modal_mass[i];
+        let load = |power: usize| {
+            surfaces.iter().map(|s| s.load[power] * s.mean.phi[i]).sum::<f64>() * per_mass
+        };
+        let mut force = ModalForce {
+            alpha: std::array::from_fn(load),
+            delta_e: surfaces[2].slope * surfaces[2].mean.phi[i] * per_mass,
+            pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,
+            ..ModalForce::default()
+        };
+        for k in 0..modes.shape.len() {
+            force.elastic.eta[k] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
+            force.elastic.rate[k] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
+        }
+        elastic.force[i] = force;
     }
     elastic
-}
-
-/// Generalised force on one mode, over qbar S and the modal mass.
-fn force(
-    surfaces: &[Surface; 3],
-    shape: &Shape,
-    shapes: &[Shape],
-    elevator_lift: f64,
-    mass_centre: f64,
-    modal_mass: f64,
-) -> ModalForce {
-    let sum = |f: &dyn Fn(&Surface) -> f64| surfaces.iter().map(f).sum::<f64>() / modal_mass;
-    let w = |point: &Point| shape.w_at(point);
-    let mut elastic = ElasticTerm::default();
-    for (k, other) in shapes.iter().enumerate() {
-        elastic.eta[k] = -sum(&|s| s.slope * s.mean(|p| w(p) * other.slope_at(p)));
-        elastic.rate[k] = -sum(&|s| s.slope * s.mean(|p| w(p) * other.w_at(p)));
-    }
-    ModalForce {
-        alpha: std::array::from_fn(|power| sum(&|s| s.load[power] * s.mean(w))),
-        delta_e: elevator_lift * surfaces[2].mean(w) / modal_mass,
-        elastic,
-        pitch_rate: sum(&|s| s.slope * s.mean(|p| w(p) * (p.x - mass_centre))),
-    }
 }

@@ -177,12 +177,16 @@ impl Beam {
     pub fn mass_times(&self, displacement: &[f64], product: &mut [f64]) {
         let l = self.element_m;
         let [mut force, mut moment] = [0.0, 0.0];
-        let nodes = displacement.windows(4).step_by(2);
-        for ((u, density), out) in nodes.zip(&self.density).zip(product.chunks_exact_mut(2)) {
+        let (nodes, _) = displacement.as_chunks::<2>();
+        let (out, _) = product.as_chunks_mut::<2>();
+        for ((ends, density), out) in nodes.windows(2).zip(&self.density).zip(out) {
             let scale = density * l / 420.0;
-            let [w0, t0, w1, t1] = [u[0], l * u[1], u[2], l * u[3]];
-            out[0] = force + scale * (156.0 * w0 + 22.0 * t0 + 54.0 * w1 - 13.0 * t1);
-            out[1] = moment + scale * l * (22.0 * w0 + 4.0 * t0 + 13.0 * w1 - 3.0 * t1);
+            let [[w0, slope0], [w1, slope1]] = [ends[0], ends[1]];
+            let (t0, t1) = (l * slope0, l * slope1);
+            *out = [
+                force + scale * (156.0 * w0 + 22.0 * t0 + 54.0 * w1 - 13.0 * t1),
+                moment + scale * l * (22.0 * w0 + 4.0 * t0 + 13.0 * w1 - 3.0 * t1),
+            ];
             force = scale * (54.0 * w0 + 13.0 * t0 + 156.0 * w1 - 22.0 * t1);
             moment = -scale * l * (13.0 * w0 + 3.0 * t0 + 22.0 * w1 - 4.0 * t1);
         }
@@ -197,12 +201,13 @@ impl Beam {
     pub fn deflect(&self, load: &[f64], displacement: &mut [f64]) {
         let l = self.element_m;
         let [mut shear, mut bending, mut slope, mut w] = [0.0; 4];
-        let nodes = load.chunks_exact(2).zip(displacement.chunks_exact_mut(2));
-        for ((load, out), stiffness) in nodes.zip(&self.stiffness) {
-            out.copy_from_slice(&[w, slope]);
+        let (loads, _) = load.as_chunks::<2>();
+        let (out, _) = displacement.as_chunks_mut::<2>();
+        for (([force, moment], out), stiffness) in loads.iter().zip(out).zip(&self.stiffness) {
+            *out = [w, slope];
             // (EI w'')' = shear, EI w'' = bending: the principle of virtual work gives the signs.
-            shear += load[0];
-            bending -= load[1];
+            shear += force;
+            bending -= moment;
             let rise = shear * l;
             let turn = l / stiffness;
             w += l * (slope + turn * (bending / 2.0 + rise / 6.0));

@@ -4,62 +4,10 @@ use crate::dop853::DOP853;
 use crate::dynamics::{Control, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, System};
-use crate::modes::FLEXIBLE;
-use crate::trim::{Condition, Trim, trim};
-use crate::vehicle::{AeroSet, Build, Configuration, Data};
+use crate::parameters::{InputMode, Parameters};
+use crate::trim::{Trim, trim};
+use crate::vehicle::Data;
 use std::sync::Arc;
-
-/// Meaning of the two inputs. The numbers are those of the FMU's enumeration.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum InputMode {
-    /// Added to the trim controls.
-    DeviationFromTrim = 1,
-    /// The controls themselves.
-    Absolute = 2,
-}
-
-/// What can be chosen before a flight.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameters {
-    /// Vehicle and initial flight condition.
-    pub build: Build,
-    /// Start from trimmed flight, or from the values below.
-    pub trim: bool,
-    /// Meaning of the inputs; always absolute without trim.
-    pub input_mode: InputMode,
-    /// Incidence to start from without trim, rad.
-    pub alpha0: f64,
-    /// Pitch rate to start from without trim, rad/s.
-    pub q0: f64,
-    /// Flexible modal coordinates to start from without trim, m at the nose.
-    pub eta0: [f64; FLEXIBLE],
-}
-
-impl Parameters {
-    /// The values that `vehicle.toml` gives.
-    pub fn new(data: &Data) -> Self {
-        let default = &data.vehicle.default;
-        Self {
-            build: Build {
-                configuration: Configuration::SloshBeam,
-                aero: AeroSet::Parker2007,
-                fuel_fraction: default.fuel_fraction.value,
-                slosh_damping: default.slosh_damping.value,
-                slosh_frequency: default.slosh_frequency_rad_per_s.value,
-                condition: Condition {
-                    mach: default.mach.value,
-                    altitude: default.altitude_m.value,
-                    gamma: 0.0,
-                },
-            },
-            trim: true,
-            input_mode: InputMode::DeviationFromTrim,
-            alpha0: 0.0,
-            q0: 0.0,
-            eta0: [0.0; FLEXIBLE],
-        }
-    }
-}
 
 /// Tolerance of a master that asks for none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-8;
@@ -125,40 +73,24 @@ struct Held<'a> {
 }
 
 impl System<STATES> for Held<'_> {
-    fn len(&self) -> usize {
+    fn states(&self) -> usize {
         self.vehicle.states()
     }
     fn derivatives(&self, _: f64, x: &State) -> State {
         self.vehicle.derivatives(x, &self.control)
     }
     fn holds(&self, x: &State) -> bool {
-        outside(self.vehicle, x).is_none()
+        self.vehicle.aero.envelope.holds(&self.vehicle.atmosphere, x)
     }
     fn nominal(&self) -> &State {
         &NOMINAL
     }
 }
 
-/// A variable of the envelope with its value and limits.
-type Limited = (&'static str, f64, [f64; 2]);
-
-fn limited(vehicle: &Vehicle, x: &State) -> [Limited; 3] {
-    let envelope = &vehicle.aero.envelope;
-    let mach = x[0] / vehicle.atmosphere.air(x[1]).sound_speed;
-    [("h", x[1], envelope.altitude), ("mach", mach, envelope.mach), ("alpha", x[3], envelope.alpha)]
-}
-
-/// The variable that is outside the region where the curve fits hold.
-fn outside(vehicle: &Vehicle, x: &State) -> Option<Limited> {
-    limited(vehicle, x).into_iter().find(|(_, value, [min, max])| !(value >= min && value <= max))
-}
-
-/// The variable that is about to leave that region.
-fn nearest_limit(vehicle: &Vehicle, x: &State) -> Limited {
-    let margin =
-        |&(_, value, [min, max]): &Limited| f64::min(value - min, max - value) / (max - min);
-    let [first, rest @ ..] = limited(vehicle, x);
-    rest.into_iter().fold(first, |a, b| if margin(&b) < margin(&a) { b } else { a })
+fn left(vehicle: &Vehicle, state: &State, time_s: f64) -> Error {
+    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
+    let [min, max] = tightest.limits;
+    Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
 
 impl Flight {
@@ -254,8 +186,8 @@ impl Flight {
             for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
                 state[RIGID + 2 * i] = eta;
             }
-            if let Some((variable, value, [min, max])) = outside(&vehicle, &state) {
-                return Err(Error::Envelope { variable, value, min, max, time_s: self.time });
+            if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &state) {
+                return Err(left(&vehicle, &state, self.time));
             }
             Trim { state, control: [0.0; 2] }
         };
@@ -321,8 +253,7 @@ impl Flight {
             }
             Arrival::Left(time) => {
                 self.time = time;
-                let (variable, value, [min, max]) = nearest_limit(&ready.vehicle, &self.state);
-                Err(Error::Envelope { variable, value, min, max, time_s: time })
+                Err(left(&ready.vehicle, &self.state, time))
             }
             Arrival::Stuck(time) => {
                 self.time = time;
@@ -349,14 +280,31 @@ impl Flight {
     /// Those of [`Flight::initialise`].
     pub fn restore(snapshot: &Snapshot) -> Result<Self, Error> {
         let mut flight = Self::new()?;
-        flight.parameters = snapshot.parameters;
-        if snapshot.initialised {
-            flight.initialise()?;
-        }
-        flight.inputs = snapshot.inputs;
-        flight.state = snapshot.state;
-        flight.time = snapshot.time;
-        flight.integrator = snapshot.integrator;
+        flight.rewind(snapshot)?;
         Ok(flight)
+    }
+
+    /// Becomes the flight that a snapshot was taken of, bit for bit. A vehicle with the same
+    /// parameters is kept: a master that repeats steps does this often.
+    ///
+    /// # Errors
+    /// Those of [`Flight::initialise`]; the flight is then as it was.
+    pub fn rewind(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
+        let kept = snapshot.initialised && self.parameters == snapshot.parameters;
+        if !(kept && self.ready.is_some()) {
+            let mut flight = self.clone();
+            flight.change(|parameters| *parameters = snapshot.parameters);
+            if snapshot.initialised {
+                flight.initialise()?;
+            }
+            *self = flight;
+        }
+        self.inputs = snapshot.inputs;
+        self.state = snapshot.state;
+        self.time = snapshot.time;
+        self.integrator = snapshot.integrator;
+        self.slope = None;
+        self.sample = None;
+        Ok(())
     }
 }

@@ -1,9 +1,9 @@
 //! Integration of x' = f(t, x) over one interval, landing exactly on its end. Knows no aircraft.
 
-/// What is integrated. States beyond [`System::len`] are left alone.
+/// What is integrated. States beyond [`System::states`] are left alone.
 pub trait System<const N: usize> {
     /// Number of states in use, at most `N`.
-    fn len(&self) -> usize;
+    fn states(&self) -> usize;
     /// f(t, x).
     fn derivatives(&self, t: f64, x: &[f64; N]) -> [f64; N];
     /// Whether the model still holds at x; an accepted step never ends where it does not.
@@ -99,21 +99,24 @@ impl Integrator {
                 return Arrival::Stuck(t);
             }
             let (next, error) = self.step(tableau, system, x, t, h, &slope);
-            let factor = if error > 0.0 {
-                SAFETY * libm::pow(error, -1.0 / f64::from(tableau.error_order))
-            } else {
+            // A NaN, from a wild trial state, counts as far too long a step.
+            let factor = if error == 0.0 {
                 FACTORS[1]
+            } else if error.is_finite() {
+                let exponent = -1.0 / f64::from(tableau.error_order);
+                (SAFETY * libm::pow(error, exponent)).clamp(FACTORS[0], FACTORS[1])
+            } else {
+                FACTORS[0]
             };
-            // A NaN from a wild trial state counts as too long a step.
-            if !(error <= 1.0) {
-                self.proposal = h * if factor.is_finite() { factor.max(FACTORS[0]) } else { 0.1 };
+            let wanted = h * factor;
+            if error.is_nan() || error > 1.0 {
+                self.proposal = wanted;
                 continue;
             }
             if !system.holds(&next) {
                 invalid = t + h;
                 continue;
             }
-            let wanted = h * factor.clamp(FACTORS[0], FACTORS[1]);
             // A step cut by the interval's end says nothing against the longer proposal.
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
             t = if last && invalid > end { end } else { t + h };
@@ -134,7 +137,7 @@ impl Integrator {
         h: f64,
         slope: &[f64; N],
     ) -> ([f64; N], f64) {
-        let n = system.len();
+        let n = system.states();
         let mut stages = [[0.0; N]; S];
         stages[0] = *slope;
         for stage in 1..S {

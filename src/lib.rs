@@ -8,16 +8,19 @@
 //! | [`slosh`] | liquid in the tanks | Fig. 4 |
 //! | [`beam`], [`hermite`] | elements, mass, statics; shapes between the nodes | eqs (1)-(2) |
 //! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
-//! | [`aero`] | curve fits at run time | eq. (4) |
+//! | [`aero`], [`envelope`] | curve fits at run time, and where they hold | eq. (4) |
 //! | [`aeroelastic`] | where the elastic terms come from | eq. (4) |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
-//! | [`vehicle`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
+//! | [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
+//! | [`fmi`] | the FMU's C interface | FMI 2.0.5 |
 //!
 //! The paper: Xu, Huang, Cai, "Flight dynamic analysis of hypersonic vehicle considering
 //! liquid-solid coupling", Trans. Nanjing Univ. Aero. Astro. 32(1), 2015, 81-88.
+
+#![deny(unsafe_code)]
 
 pub mod aero;
 pub mod aeroelastic;
@@ -25,12 +28,15 @@ pub mod atmosphere;
 pub mod beam;
 pub mod dop853;
 pub mod dynamics;
+pub mod envelope;
 pub mod error;
 pub mod flight;
+pub mod fmi;
 pub mod hermite;
 pub mod integrate;
 pub mod linear;
 pub mod modes;
+pub mod parameters;
 pub mod params;
 pub mod scalar;
 pub mod slosh;

@@ -8,7 +8,7 @@
 //! Two things are left out on purpose. The *second mode* carries 1/27 of the first one's mass in a
 //! deep tank (3.7 %, [`mass_ratio`] of a bay a third as long), less than the data are known to; its
 //! liquid counts as frozen. The *attachment height* `h (1/2 - tanh(pi r/2) / (pi r/2))` above the
-//! middle of the liquid is at most about half a metre here, while the station of a tank is itself
+//! middle of the liquid is at most two thirds of a metre here, while the station of a tank is itself
 //! identified from three frequencies: the mass hangs on the tank's node, as in fig. 4.
 
 use crate::error::Error;

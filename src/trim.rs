@@ -150,7 +150,7 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         let (value, _) = residual(vehicle, &start, &limited);
         return Err(impossible(limit, value.amax()));
     }
-    if !(best < STEADY) {
+    if best.is_nan() || best >= STEADY {
         return Err(impossible("the equations have no solution near level flight".into(), best));
     }
 

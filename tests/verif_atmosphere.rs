@@ -1,11 +1,11 @@
 //! Air against the printed tables of the US Standard Atmosphere 1976.
 #![allow(missing_docs)]
 
-mod common;
+mod model;
 
 use ahv::atmosphere::Atmosphere;
 use ahv::scalar::Dual;
-use common::{assert_close, data};
+use model::{assert_close, data};
 
 /// The tables print five digits.
 const PRINTED_DIGITS: f64 = 5e-5;

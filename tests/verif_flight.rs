@@ -1,7 +1,7 @@
 //! Flight mechanics: trim, kinematics, derivatives, integration.
 #![allow(missing_docs)]
 
-mod common;
+mod model;
 
 use ahv::dynamics::{INPUTS, NOMINAL, STATES, State, Vehicle};
 use ahv::error::Error;
@@ -9,7 +9,7 @@ use ahv::linear::Linear;
 use ahv::scalar::Dual;
 use ahv::trim::{Condition, trim};
 use ahv::vehicle::Configuration;
-use common::{CONFIGURATIONS, build, data, deviation, flight, vehicle};
+use model::{CONFIGURATIONS, build, data, deviation, flight, vehicle};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.

@@ -17,13 +17,12 @@ pub enum Command {
     Describe(Describe),
     Package(Package),
     Fly(Fly),
-    /// Frequencies, damping and slosh displacements of the kept modes
-    #[command(after_help = MODES_HELP)]
-    Modes(Analyse),
+    Modes(Modes),
     /// Trimmed flight: incidence, controls, forces, static deflections
     #[command(after_help = TRIM_HELP)]
     Trim(Analyse),
     Poles(Poles),
+    Methods(Compare),
     Test(Test),
 }
 
@@ -75,7 +74,7 @@ Examples:
   cargo ahv fly
   cargo ahv fly --input examples/throttle_step.csv --set configuration=Rigid
   cargo ahv fly --set mach0=9 --set altitude0=27000 --stop 1
-  cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output /tmp/climb")]
+  cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output target/climb")]
 pub struct Fly {
     /// Inputs over time [default: examples/elevator_doublet.csv]
     #[arg(long, value_name = "FILE.csv")]
@@ -108,11 +107,6 @@ pub struct Set {
     pub settings: Vec<String>,
 }
 
-const MODES_HELP: &str = "\
-Examples:
-  cargo ahv modes
-  cargo ahv modes --set fuel_fraction=0.5 --set slosh_damping=0.02
-  cargo ahv modes --set configuration=EvenMassBeam --json";
 const TRIM_HELP: &str = "\
 Examples:
   cargo ahv trim
@@ -127,6 +121,33 @@ pub struct Analyse {
     /// Print JSON, in SI units and radians
     #[arg(long)]
     pub json: bool,
+}
+
+/// Integration methods compared: right-hand sides against error, on the vehicle itself
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv methods
+  cargo ahv methods --set configuration=Rigid")]
+pub struct Compare {
+    #[command(flatten)]
+    pub set: Set,
+}
+
+/// Frequencies, damping and slosh displacements of the kept modes
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv modes
+  cargo ahv modes --set fuel_fraction=0.5 --set slosh_damping=0.02
+  cargo ahv modes --set configuration=EvenMassBeam --json
+  cargo ahv modes --elements    with the beam's elements, for build/bench/modes_vs_eigsh.py")]
+pub struct Modes {
+    #[command(flatten)]
+    pub analyse: Analyse,
+    /// Print JSON with the beam's elements and the time of the solution
+    #[arg(long)]
+    pub elements: bool,
 }
 
 /// Poles and transmission zeros (delta_e, phi to V, gamma) in trimmed flight

@@ -1,12 +1,13 @@
 //! Writes modelDescription.xml from the table of variables.
 
 use crate::cli::Describe;
+use crate::structure::{index, model_structure};
 use crate::workspace::{read_text, root, shown, write};
-use ahv::dynamics::STATES;
+use crate::xml::Xml;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
-use ahv::variables::{self, Dependencies, Kind, Role, TABLE, Unit, Variable};
+use ahv::fmi::log::CATEGORIES;
+use ahv::variables::{self, Kind, Role, TABLE, Unit, Variable};
 use anyhow::{Result, bail};
-use quick_xml::Writer;
 use std::io;
 
 /// Name of the binary and of its C prefix.
@@ -14,13 +15,6 @@ pub const MODEL_IDENTIFIER: &str = "ahv";
 /// Time span that the open-loop instability leaves, and a step that shows the third mode, s.
 const STOP_TIME: f64 = 2.0;
 const STEP_SIZE: f64 = 0.01;
-/// Categories of log messages and what they hold.
-const LOG_CATEGORIES: [(&str, &str); 4] = [
-    ("logStatusWarning", "Remarks on calls that were carried out"),
-    ("logStatusDiscard", "Steps that ended early, with the limit that was hit"),
-    ("logStatusError", "Calls that were refused, with the reason"),
-    ("logStatusFatal", "Failures that leave the instance unusable"),
-];
 
 pub fn run(options: &Describe) -> Result<()> {
     let default = root().join("modelDescription/modelDescription.xml");
@@ -50,12 +44,7 @@ pub fn run(options: &Describe) -> Result<()> {
 /// The whole file. The same sources give the same bytes: no date, no path, no host.
 pub fn xml() -> Result<String> {
     let flight = Flight::new()?;
-    let mut xml = Xml(Writer::new_with_indent(Vec::new(), b' ', 2));
-    xml.0.write_event(quick_xml::events::Event::Decl(quick_xml::events::BytesDecl::new(
-        "1.0",
-        Some("UTF-8"),
-        None,
-    )))?;
+    let mut xml = Xml::new()?;
     let root = [
         ("fmiVersion", "2.0".to_string()),
         ("modelName", "ahv".to_string()),
@@ -78,9 +67,11 @@ pub fn xml() -> Result<String> {
         xml.parent("UnitDefinitions", &[], unit_definitions)?;
         xml.parent("TypeDefinitions", &[], type_definitions)?;
         xml.parent("LogCategories", &[], |xml| {
-            LOG_CATEGORIES.iter().try_for_each(|(name, description)| {
-                let attributes =
-                    [("name", name.to_string()), ("description", description.to_string())];
+            CATEGORIES.iter().try_for_each(|category| {
+                let attributes = [
+                    ("name", category.name().to_string_lossy().into_owned()),
+                    ("description", category.description().to_string()),
+                ];
                 xml.leaf("Category", &attributes)
             })
         })?;
@@ -99,37 +90,7 @@ pub fn xml() -> Result<String> {
         })?;
         xml.parent("ModelStructure", &[], model_structure)
     })?;
-    Ok(String::from_utf8(xml.0.into_inner())? + "\n")
-}
-
-type Attributes<'a> = [(&'a str, String)];
-
-/// A writer that knows elements with and without children.
-struct Xml(Writer<Vec<u8>>);
-
-impl Xml {
-    fn leaf(&mut self, name: &str, attributes: &Attributes) -> io::Result<()> {
-        let pairs = attributes.iter().map(|(key, value)| (*key, value.as_str()));
-        self.0.create_element(name).with_attributes(pairs).write_empty().map(drop)
-    }
-
-    fn parent(
-        &mut self,
-        name: &str,
-        attributes: &Attributes,
-        children: impl FnOnce(&mut Self) -> io::Result<()>,
-    ) -> io::Result<()> {
-        use quick_xml::events::{BytesEnd, BytesStart, Event};
-        let pairs = attributes.iter().map(|(key, value)| (*key, value.as_str()));
-        self.0.write_event(Event::Start(BytesStart::new(name).with_attributes(pairs)))?;
-        children(self)?;
-        self.0.write_event(Event::End(BytesEnd::new(name)))
-    }
-
-    fn comment(&mut self, text: &str) -> io::Result<()> {
-        use quick_xml::events::{BytesText, Event};
-        self.0.write_event(Event::Comment(BytesText::new(&format!(" {text} "))))
-    }
+    Ok(xml.finish()?)
 }
 
 fn co_simulation(xml: &mut Xml) -> io::Result<()> {
@@ -289,68 +250,5 @@ fn scalar_variable(
     })
 }
 
-/// Index of a row in the ModelStructure, which counts from one.
-fn index(row: usize) -> usize {
-    row + 1
-}
-
-fn model_structure(xml: &mut Xml) -> io::Result<()> {
-    let rows = |wanted: fn(Role) -> bool| {
-        TABLE.iter().enumerate().filter(move |(_, variable)| wanted(variable.role))
-    };
-    xml.parent("Outputs", &[], |xml| {
-        rows(|role| matches!(role, Role::Output | Role::OutputState(_)))
-            .try_for_each(|(row, variable)| unknown(xml, row, variable.dependencies))
-    })?;
-    xml.parent("Derivatives", &[], |xml| {
-        rows(|role| matches!(role, Role::Derivative(_)))
-            .try_for_each(|(row, variable)| unknown(xml, row, variable.dependencies))
-    })?;
-    xml.parent("InitialUnknowns", &[], |xml| {
-        rows(|role| !matches!(role, Role::Input(_) | Role::Parameter))
-            .try_for_each(|(row, variable)| initial_unknown(xml, row, variable))
-    })
-}
-
-/// An output or derivative: on which states and inputs it depends, and how.
-fn unknown(xml: &mut Xml, row: usize, dependencies: Dependencies) -> io::Result<()> {
-    let kinds = [
-        (dependencies.dependent, "dependent"),
-        (dependencies.fixed, "fixed"),
-        (dependencies.constant, "constant"),
-    ];
-    let mut known: Vec<(usize, &str)> = variables::known_rows()
-        .into_iter()
-        .enumerate()
-        .filter_map(|(bit, row)| {
-            let (_, kind) = kinds.into_iter().find(|(mask, _)| mask & (1 << bit) != 0)?;
-            Some((index(row), kind))
-        })
-        .collect();
-    known.sort_unstable();
-    let attributes = [
-        ("index", index(row).to_string()),
-        ("dependencies", list(known.iter().map(|(index, _)| index))),
-        ("dependenciesKind", list(known.iter().map(|(_, kind)| kind))),
-    ];
-    xml.leaf("Unknown", &attributes)
-}
-
-/// At initialisation the states are unknowns too, and what is known are parameters and inputs. The
-/// initial state comes from parameters alone, so an input matters only to what depends on it
-/// directly; to say more would make a master see algebraic loops that are not there.
-fn initial_unknown(xml: &mut Xml, row: usize, variable: &Variable) -> io::Result<()> {
-    let Dependencies { dependent, fixed, constant } = variable.dependencies;
-    let inputs = (dependent | fixed | constant) >> STATES;
-    let known = TABLE.iter().enumerate().filter_map(|(row, known)| match known.role {
-        Role::Input(input) => (inputs & (1 << input) != 0).then(|| index(row)),
-        Role::Parameter => Some(index(row)),
-        _ => None,
-    });
-    let attributes = [("index", index(row).to_string()), ("dependencies", list(known))];
-    xml.leaf("Unknown", &attributes)
-}
-
-fn list(items: impl Iterator<Item = impl ToString>) -> String {
-    items.map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
-}
+#[cfg(test)]
+mod tests;

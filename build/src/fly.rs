@@ -1,8 +1,9 @@
 //! Flies a manoeuvre with the FMU.
 
 use crate::cli::Fly;
+use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
-use crate::master::{Fmu, Instance, Step, status_name};
+use crate::master::{Instance, Step, status_name};
 use crate::model_description::{Causality, ModelDescription, Variable};
 use crate::record::Record;
 use crate::settings::{self, Setting};
@@ -32,15 +33,15 @@ pub fn run(options: &Fly) -> Result<()> {
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;
     let default = &model.experiment;
-    let step = positive("--step", options.step.or(default.step_size), 0.01)?;
-    let stop = positive("--stop", options.stop.or(default.stop_time), 2.0)?;
-    let tolerance = positive("--tolerance", options.tolerance.or(default.tolerance), 1e-8)?;
+    let step = positive("--step", options.step.or(default.step_size))?;
+    let stop = positive("--stop", options.stop.or(default.stop_time))?;
+    let tolerance = positive("--tolerance", options.tolerance.or(default.tolerance))?;
     let settings = settings::parse(model, &options.set.settings)?;
     let input =
         options.input.clone().unwrap_or_else(|| root().join("examples/elevator_doublet.csv"));
     let manoeuvre = Manoeuvre::read(&input, model)?;
 
-    let mut instance = fmu.instantiate()?;
+    let mut instance = Instance::new(&fmu)?;
     for setting in &settings {
         instance
             .set(setting.variable, setting.value)
@@ -81,12 +82,12 @@ pub fn run(options: &Fly) -> Result<()> {
     }
 }
 
-fn positive(option: &str, value: Option<f64>, default: f64) -> Result<f64> {
-    let value = value.unwrap_or(default);
-    if !(value.is_finite() && value > 0.0) {
-        bail!("{option} {value}: a finite number above zero is expected");
+fn positive(option: &str, value: Option<f64>) -> Result<f64> {
+    match value {
+        Some(value) if value.is_finite() && value > 0.0 => Ok(value),
+        Some(value) => bail!("{option} {value}: a finite number above zero is expected"),
+        None => bail!("{option} is needed: the FMU has no default"),
     }
-    Ok(value)
 }
 
 /// Sets the inputs that hold at a time.

@@ -10,43 +10,13 @@ use std::path::{Path, PathBuf};
 #[derive(Deserialize)]
 struct Metadata {
     packages: Vec<Crate>,
-    resolve: Resolve,
 }
 
 #[derive(Deserialize)]
 struct Crate {
-    id: String,
     name: String,
     version: String,
     manifest_path: PathBuf,
-    targets: Vec<Target>,
-}
-
-#[derive(Deserialize)]
-struct Target {
-    kind: Vec<String>,
-}
-
-#[derive(Deserialize)]
-struct Resolve {
-    nodes: Vec<Node>,
-}
-
-#[derive(Deserialize)]
-struct Node {
-    id: String,
-    deps: Vec<Dependency>,
-}
-
-#[derive(Deserialize)]
-struct Dependency {
-    pkg: String,
-    dep_kinds: Vec<DependencyKind>,
-}
-
-#[derive(Deserialize)]
-struct DependencyKind {
-    kind: Option<String>,
 }
 
 /// Licence files by their name in the FMU: our own, and those of every crate that is linked in.
@@ -86,38 +56,32 @@ fn in_directory(directory: &Path) -> Result<Vec<(String, Vec<u8>)>> {
 /// The crates that the library is linked from, without itself. Macros run at build time and leave
 /// nothing behind.
 fn linked_crates() -> Result<Vec<Crate>> {
-    let output = cargo()
-        .args(["metadata", "--format-version=1", "--quiet"])
-        .output()
-        .context("cannot start cargo")?;
-    if !output.status.success() {
-        bail!("cargo metadata: {}", String::from_utf8_lossy(&output.stderr).trim());
-    }
-    let metadata: Metadata =
-        serde_json::from_slice(&output.stdout).context("cargo metadata cannot be read")?;
-    let is_macro = |package: &Crate| {
-        package.targets.iter().any(|target| target.kind.iter().any(|kind| kind == "proc-macro"))
-    };
-    let linkable: BTreeMap<_, _> = metadata
-        .packages
-        .iter()
-        .filter(|package| !is_macro(package))
-        .map(|package| (package.id.as_str(), package.name.as_str()))
+    let tree = ask_cargo(&[
+        "tree",
+        "--package=ahv-fmu",
+        "--edges=normal,no-proc-macro",
+        "--prefix=none",
+        "--format={p}",
+    ])?;
+    // A line is like `libm v0.2.16`; the library itself has its path behind that.
+    let linked: BTreeSet<_> = String::from_utf8_lossy(&tree)
+        .lines()
+        .filter_map(|line| line.split_once(" v"))
+        .map(|(name, rest)| (name.to_string(), rest.split(' ').next().unwrap_or(rest).to_string()))
+        .filter(|(name, _)| name != "ahv-fmu")
         .collect();
+    let metadata = ask_cargo(&["metadata", "--format-version=1"])?;
+    let Metadata { mut packages } =
+        serde_json::from_slice(&metadata).context("cargo metadata cannot be read")?;
+    packages.retain(|found| linked.contains(&(found.name.clone(), found.version.clone())));
+    Ok(packages)
+}
 
-    let mut linked = BTreeSet::new();
-    let mut waiting: Vec<&str> =
-        linkable.iter().filter(|(_, name)| **name == "ahv-fmu").map(|(id, _)| *id).collect();
-    while let Some(id) = waiting.pop() {
-        if !linkable.contains_key(id) || !linked.insert(id.to_string()) {
-            continue;
-        }
-        let node = metadata.resolve.nodes.iter().find(|node| node.id == id);
-        let normal = node.into_iter().flat_map(|node| &node.deps).filter(|dependency| {
-            dependency.dep_kinds.iter().any(|DependencyKind { kind }| kind.is_none())
-        });
-        waiting.extend(normal.map(|dependency| dependency.pkg.as_str()));
+fn ask_cargo(arguments: &[&str]) -> Result<Vec<u8>> {
+    let output = cargo().args(arguments).arg("--quiet").output().context("cannot start cargo")?;
+    if !output.status.success() {
+        let message = String::from_utf8_lossy(&output.stderr);
+        bail!("cargo {}: {}", arguments[0], message.trim());
     }
-    let wanted = |package: &Crate| package.name != "ahv-fmu" && linked.contains(&package.id);
-    Ok(metadata.packages.into_iter().filter(wanted).collect())
+    Ok(output.stdout)
 }

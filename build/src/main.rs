@@ -4,20 +4,26 @@ mod cli;
 mod describe;
 mod documentation;
 mod fly;
+mod fmu;
 mod licenses;
 mod manoeuvre;
 mod master;
+mod methods;
 mod model_description;
 mod modes;
 mod package;
+mod panels;
 mod plot;
 mod poles;
+mod raster;
 mod record;
 mod settings;
+mod structure;
 mod table;
 mod test;
 mod trim;
 mod workspace;
+mod xml;
 
 use clap::Parser;
 use cli::{Cli, Command};
@@ -31,6 +37,7 @@ fn main() -> ExitCode {
         Command::Modes(options) => modes::run(&options),
         Command::Trim(options) => trim::run(&options),
         Command::Poles(options) => poles::run(&options),
+        Command::Methods(options) => methods::run(&options),
         Command::Test(options) => test::run(&options),
     };
     match result {

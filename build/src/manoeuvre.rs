@@ -161,7 +161,7 @@ mod tests {
             ("", "a.csv: no header"),
             ("t,phi\n", "a.csv, line 1: the first column is `t`"),
             ("time,delta\n", "line 1: there is no input `delta`; did you mean delta_e?"),
-            ("time,V\n", "line 1: there is no input `V`; known are delta_e, phi"),
+            ("time,V\n", "line 1: there is no input `V`; choose from delta_e, phi"),
             ("time,phi,phi\n", "line 1: column phi is there twice"),
             ("time,delta_e[grad]\n", "column delta_e: unit `grad` is unknown; rad or deg"),
             ("time,phi\n0,1,2\n", "line 2: 3 values where the header names 2 columns (time, phi)"),

@@ -3,94 +3,13 @@
 //! This file alone talks C; everything it offers is safe to call.
 #![allow(unsafe_code)]
 
-use crate::model_description::{Kind, ModelDescription, Variable};
-use crate::package::HOST;
-use crate::workspace::{read_text, shown};
+use crate::fmu::Fmu;
+use crate::model_description::{Kind, Variable};
 use anyhow::{Context, Result, anyhow, bail};
 use libloading::Library;
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
-use std::fs::File;
-use std::path::Path;
 use std::ptr;
 use std::sync::{Mutex, PoisonError};
-use tempfile::TempDir;
-use zip::ZipArchive;
-
-/// An unpacked FMU. The directory goes when this value does.
-pub struct Fmu {
-    directory: TempDir,
-    pub model: ModelDescription,
-}
-
-impl Fmu {
-    /// Unpacks a file and reads its description.
-    pub fn open(file: &Path) -> Result<Self> {
-        let name = shown(file);
-        let archive = File::open(file).with_context(|| format!("cannot open {name}"))?;
-        let directory = TempDir::with_prefix("fmu-")?;
-        ZipArchive::new(archive)
-            .and_then(|mut archive| archive.extract(directory.path()))
-            .with_context(|| format!("{name} is not an FMU: it cannot be unzipped"))?;
-        let xml = read_text(&directory.path().join("modelDescription.xml"))
-            .with_context(|| format!("{name} is not an FMU: it has no modelDescription.xml"))?;
-        let model = ModelDescription::parse(&xml).with_context(|| name.clone())?;
-        if model.fmi_version != "2.0" || model.co_simulation.is_none() {
-            bail!("{name}: FMI {}; an FMU for FMI 2.0 co-simulation is needed", model.fmi_version);
-        }
-        Ok(Self { directory, model })
-    }
-
-    /// Loads the binary and makes an instance.
-    pub fn instantiate(&self) -> Result<Instance> {
-        let Some(co_simulation) = &self.model.co_simulation else {
-            bail!("the FMU has no co-simulation");
-        };
-        let (platform, ending) = HOST;
-        let binary = format!("binaries/{platform}/{}.{ending}", co_simulation.model_identifier);
-        let path = self.directory.path().join(&binary);
-        if !path.exists() {
-            bail!("the FMU has no binary for this machine: {binary} is not in it");
-        }
-        // SAFETY: loading runs the initialisers of a library that the user asked to fly.
-        let library = unsafe { Library::new(&path) }
-            .with_context(|| format!("the FMU's binary {binary} cannot be loaded"))?;
-        let functions = Functions::load(&library)?;
-
-        let log = Box::new(Log::default());
-        let callbacks = Box::new(Callbacks {
-            // SAFETY: the FMU calls this pointer as a C-variadic function, which stable Rust cannot
-            // define. On the platforms of FMI 2.0 (System V and Windows x86-64, AArch64) the fixed
-            // arguments of a variadic call travel as in any other call, and the caller clears the
-            // stack, so a function that takes just these is called correctly and ignores the rest.
-            logger: unsafe { std::mem::transmute::<FixedLogger, VariadicLogger>(logger) },
-            allocate: calloc,
-            free,
-            step_finished: None,
-            environment: ptr::from_ref::<Log>(&log).cast(),
-        });
-        let name = CString::new(self.model.model_name.as_str())?;
-        let guid = CString::new(self.model.guid.as_str())?;
-        let resources = self.directory.path().join("resources");
-        let resources = CString::new(format!("file://{}", resources.display()))?;
-        // SAFETY: the strings are terminated and outlive the call; log and callbacks live in boxes
-        // that the instance keeps until it is freed.
-        let component = unsafe {
-            (functions.instantiate)(
-                name.as_ptr(),
-                CO_SIMULATION,
-                guid.as_ptr(),
-                resources.as_ptr(),
-                &raw const *callbacks,
-                FALSE,
-                TRUE,
-            )
-        };
-        if component.is_null() {
-            bail!("fmi2Instantiate failed: {}", log.last());
-        }
-        Ok(Instance { functions, component, log, _callbacks: callbacks, _library: library })
-    }
-}
 
 /// A message of the FMU.
 #[derive(Debug, Clone)]
@@ -133,6 +52,47 @@ pub struct Instance {
 }
 
 impl Instance {
+    /// Loads the binary and makes an instance.
+    pub fn new(fmu: &Fmu) -> Result<Self> {
+        // SAFETY: loading runs the initialisers of a library that the user asked to fly.
+        let library = unsafe { Library::new(&fmu.binary) }
+            .context("the binary of the FMU cannot be loaded")?;
+        let functions = Functions::load(&library)?;
+
+        let log = Box::new(Log::default());
+        let callbacks = Box::new(Callbacks {
+            // SAFETY: the FMU calls this pointer as a C-variadic function, which stable Rust cannot
+            // define. On the platforms of FMI 2.0 (System V and Windows x86-64, AArch64) the fixed
+            // arguments of a variadic call travel as in any other call, and the caller clears the
+            // stack, so a function that takes just these is called correctly and ignores the rest.
+            logger: unsafe { std::mem::transmute::<FixedLogger, VariadicLogger>(logger) },
+            allocate: calloc,
+            free,
+            step_finished: None,
+            environment: ptr::from_ref::<Log>(&log).cast(),
+        });
+        let name = CString::new(fmu.model.model_name.as_str())?;
+        let guid = CString::new(fmu.model.guid.as_str())?;
+        let resources = CString::new(fmu.resources())?;
+        // SAFETY: the strings are terminated and outlive the call; log and callbacks live in boxes
+        // that the instance keeps until it is freed.
+        let component = unsafe {
+            (functions.instantiate)(
+                name.as_ptr(),
+                CO_SIMULATION,
+                guid.as_ptr(),
+                resources.as_ptr(),
+                &raw const *callbacks,
+                FALSE,
+                TRUE,
+            )
+        };
+        if component.is_null() {
+            bail!("fmi2Instantiate failed: {}", log.last());
+        }
+        Ok(Self { functions, component, log, _callbacks: callbacks, _library: library })
+    }
+
     /// From instantiation to the start of initialisation.
     pub fn set_up(&mut self, start: f64, stop: f64, tolerance: f64) -> Result<()> {
         // SAFETY: the component is the one that fmi2Instantiate returned.
@@ -216,7 +176,13 @@ impl Instance {
     fn check(&self, call: &str, status: c_int) -> Result<()> {
         match status {
             OK | WARNING => Ok(()),
-            _ => Err(anyhow!("{call} returned {}: {}", status_name(status), self.log.last())),
+            _ => {
+                let reason = self.log.last();
+                // The FMU may name the call itself.
+                let reason = reason.strip_prefix(call).unwrap_or(&reason);
+                let reason = reason.trim_start_matches([':', ' ']);
+                Err(anyhow!("{call} returned {}: {reason}", status_name(status)))
+            }
         }
     }
 }
@@ -281,7 +247,7 @@ unsafe extern "C" fn logger(
     };
     // SAFETY: the environment is the log that was passed with the callbacks; it outlives them.
     let Some(log) = (unsafe { environment.cast::<Log>().as_ref() }) else { return };
-    let (category, text) = (text(category), text(message).replace("%%", "%"));
+    let (category, text) = (text(category), text(message).replace("%%", "%").replace("##", "#"));
     let message = Message { status, category, text };
     log.0.lock().unwrap_or_else(PoisonError::into_inner).push(message);
 }

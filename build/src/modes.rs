@@ -1,12 +1,42 @@
 //! Prints the modes that are kept.
 
-use crate::cli::Analyse;
+use crate::cli;
 use crate::table::{number, row, table};
 use crate::trim::{configuration, flight, model, ready};
-use ahv::modes::FLEXIBLE;
+use ahv::modes::{FLEXIBLE, MODES, Modes};
+use ahv::vehicle::{Build, Data, structure};
 use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;
+use std::time::Instant;
+
+/// Solutions whose median time is quoted.
+const REPEATS: usize = 200;
+
+/// The eigenproblem, its frequencies and the time that they took.
+fn solved_elements(build: &Build) -> Result<serde_json::Value> {
+    let (beam, oscillators) = structure(&Data::embedded()?, build)?;
+    let mut seconds = Vec::with_capacity(REPEATS);
+    let mut omega = [0.0; MODES];
+    for _ in 0..REPEATS {
+        let started = Instant::now();
+        omega = Modes::solve(&beam, &oscillators)?.omega_rad_per_s;
+        seconds.push(started.elapsed().as_secs_f64());
+    }
+    seconds.sort_by(f64::total_cmp);
+    let masses: Vec<_> = oscillators
+        .iter()
+        .map(|o| json!({ "node": o.node, "mass": o.mass, "stiffness": o.stiffness }))
+        .collect();
+    Ok(json!({
+        "element_m": beam.element_m,
+        "stiffness": beam.stiffness,
+        "density": beam.density,
+        "oscillators": masses,
+        "omega_rad_per_s": omega,
+        "median_s": seconds[REPEATS / 2],
+    }))
+}
 
 /// What a mode is called: flexible ones first, then those of the sloshing masses.
 pub fn name(mode: usize) -> String {
@@ -21,25 +51,40 @@ pub fn ordinal(index: usize) -> &'static str {
     ["1st", "2nd", "3rd"].get(index).copied().unwrap_or("next")
 }
 
-pub fn run(options: &Analyse) -> Result<()> {
+pub fn run(options: &cli::Modes) -> Result<()> {
+    let cli::Modes { analyse: options, elements } = options;
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, _) = ready(&flight)?;
     let count = vehicle.modes;
-    let damping = |i: usize, k: usize| vehicle.damping[i][k];
-    let ratio = |i: usize| damping(i, i) / (2.0 * vehicle.omega[i]);
+    let modes = match count {
+        0 => Modes::default(),
+        _ => {
+            let (beam, oscillators) = structure(&Data::embedded()?, &flight.parameters().build)?;
+            Modes::solve(&beam, &oscillators)?
+        }
+    };
+    if *elements {
+        println!("{}", solved_elements(&flight.parameters().build)?);
+        return Ok(());
+    }
+    let omega = &modes.omega_rad_per_s;
+    let ratio = |i: usize| vehicle.damping[i][i] / (2.0 * omega[i]);
+    let slosh = |i: usize| modes.slosh_displacement.map(|tank| tank[i]);
     if options.json {
-        let modes: Vec<_> = (0..count)
+        let list: Vec<_> = (0..count)
             .map(|i| {
                 json!({
                     "name": name(i),
-                    "omega_rad_per_s": vehicle.omega[i],
+                    "omega_rad_per_s": omega[i],
+                    "modal_mass_kg_per_m": modes.modal_mass[i],
                     "damping_ratio": ratio(i),
                     "damping_per_s": &vehicle.damping[i][..count],
-                    "slosh_displacement": vehicle.slosh.map(|tank| tank[i]),
+                    "slosh_displacement": slosh(i),
+                    "beam_energy_share": modes.beam_energy_share[i],
                 })
             })
             .collect();
-        println!("{:#}", json!({ "configuration": configuration(&flight), "modes": modes }));
+        println!("{:#}", json!({ "configuration": configuration(&flight), "modes": list }));
         return Ok(());
     }
     println!("Modes, {}", configuration(&flight));
@@ -47,22 +92,30 @@ pub fn run(options: &Analyse) -> Result<()> {
         println!("  none: the vehicle is rigid");
         return Ok(());
     }
-    let mut rows =
-        vec![row(["mode", "frequency, rad/s", "Hz", "damping ratio", "fore slosh", "aft slosh"])];
-    for i in 0..count {
+    let mut rows = vec![row([
+        "mode",
+        "rad/s",
+        "Hz",
+        "modal mass, kg/m",
+        "damping ratio",
+        "fore slosh",
+        "aft slosh",
+        "beam energy",
+    ])];
+    for (i, &omega) in omega.iter().enumerate().take(count) {
         let mut cells = vec![name(i)];
-        let omega = vehicle.omega[i];
-        cells.extend([omega, omega / TAU, ratio(i)].map(number));
-        cells.extend(vehicle.slosh.map(|tank| number(tank[i])));
+        cells.extend([omega, omega / TAU, modes.modal_mass[i], ratio(i)].map(number));
+        cells.extend(slosh(i).map(number));
+        cells.push(format!("{:.2} %", 100.0 * modes.beam_energy_share[i]));
         rows.push(cells);
     }
     print!("{}", table(&rows));
-    println!("  slosh: displacement of the sloshing mass in its tank per unit of the modal");
-    println!("  coordinate, which is the nose deflection for flexible modes\n");
-    println!("Damping matrix, 1/s");
+    println!("  slosh: displacement of the sloshing mass against its tank per unit of the mode");
+    println!("  beam energy: share of the strain energy in the beam; the rest is in the springs");
+    println!("\nDamping matrix, 1/s");
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {
-        let cells = (0..count).map(|k| number(damping(i, k)));
+        let cells = vehicle.damping[i][..count].iter().map(|value| number(*value));
         rows.push(std::iter::once(name(i)).chain(cells).collect());
     }
     print!("{}", table(&rows));

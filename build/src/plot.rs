@@ -1,7 +1,9 @@
 //! The figure of a flight: eight panels over a common time axis, for screen (SVG) and print (PNG).
 
+use crate::panels::{PANELS, Panel};
+use crate::raster;
 use crate::record::Record;
-use crate::workspace::{read, write};
+use crate::workspace::write;
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
@@ -16,108 +18,16 @@ const SIZE: (u32, u32) = (1100, 1000);
 const DRAWN: u32 = 4;
 /// ... and averaged over squares of this size: the backend does not smooth lines itself.
 const AVERAGED: u32 = 2;
+/// Room for the numbers of the vertical axis, pixels at scale one.
+const LEFT: u32 = 54;
+/// Most labels on a vertical axis.
+const LABELS: usize = 7;
 const FONT: &str = "sans-serif";
 
-/// Okabe and Ito's palette, in the order of its contrast on white: blue, vermillion, green.
+/// Blue, vermillion and green of Okabe and Ito's palette, which colour-blind readers tell apart.
 const COLOURS: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115)];
 const GRID: RGBColor = RGBColor(225, 225, 225);
 const FRAME: RGBColor = RGBColor(90, 90, 90);
-
-const DEGREES: f64 = 180.0 / std::f64::consts::PI;
-const MILLIMETRES: f64 = 1e3;
-
-/// Curves in one unit.
-struct Panel {
-    title: &'static str,
-    unit: &'static str,
-    /// Name of the variable and its label.
-    curves: &'static [(&'static str, &'static str)],
-    /// Shown = value * factor.
-    factor: f64,
-    /// Show the deviation from the first value.
-    deviation: bool,
-    /// Constant between communication points, so drawn with steps.
-    held: bool,
-    /// Half of the smallest range shown, so that rounding noise stays flat.
-    least: f64,
-}
-
-const PANEL: Panel = Panel {
-    title: "",
-    unit: "",
-    curves: &[],
-    factor: 1.0,
-    deviation: false,
-    held: false,
-    least: 1e-3,
-};
-
-/// Left column, then right column.
-const PANELS: [[Panel; 4]; 2] = [
-    [
-        Panel {
-            title: "Airspeed, deviation",
-            unit: "m/s",
-            curves: &[("V", "V − V(0)")],
-            deviation: true,
-            ..PANEL
-        },
-        Panel {
-            title: "Flight path",
-            unit: "deg",
-            curves: &[("gamma", "γ")],
-            factor: DEGREES,
-            ..PANEL
-        },
-        Panel {
-            title: "Incidence, attitude",
-            unit: "deg",
-            curves: &[("alpha", "α"), ("theta", "θ")],
-            factor: DEGREES,
-            ..PANEL
-        },
-        Panel {
-            title: "Pitch rate",
-            unit: "deg/s",
-            curves: &[("q", "q")],
-            factor: DEGREES,
-            ..PANEL
-        },
-    ],
-    [
-        Panel {
-            title: "Flexible modes, at the nose",
-            unit: "mm",
-            curves: &[("eta1", "η1"), ("eta2", "η2"), ("eta3", "η3")],
-            factor: MILLIMETRES,
-            ..PANEL
-        },
-        Panel {
-            title: "Sloshing masses",
-            unit: "mm",
-            curves: &[("slosh1", "fore tank"), ("slosh2", "aft tank")],
-            factor: MILLIMETRES,
-            ..PANEL
-        },
-        Panel {
-            title: "Elevator, in effect",
-            unit: "deg",
-            curves: &[("delta_e_effective", "δe")],
-            factor: DEGREES,
-            held: true,
-            least: 0.1,
-            ..PANEL
-        },
-        Panel {
-            title: "Fuel ratio, in effect",
-            unit: "1",
-            curves: &[("phi_effective", "φ")],
-            held: true,
-            least: 0.01,
-            ..PANEL
-        },
-    ],
-];
 
 /// Writes flight.svg and flight.png.
 pub fn write_figures(record: &Record, directory: &Path) -> Result<[PathBuf; 2]> {
@@ -125,54 +35,16 @@ pub fn write_figures(record: &Record, directory: &Path) -> Result<[PathBuf; 2]> 
     register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
         .map_err(|_| anyhow!("the built-in font cannot be read"))?;
     let (svg, png) = (directory.join("flight.svg"), directory.join("flight.png"));
-    draw(&SVGBackend::new(&svg, SIZE).into_drawing_area(), record, 1)?;
-    // An empty file means that nothing was drawn, which plotters does not report.
-    if read(&svg)?.is_empty() {
-        return Err(anyhow!("{} stayed empty", svg.display()));
-    }
+    let mut text = String::new();
+    draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), record, 1)?;
+    write(&svg, text)?;
 
     let (width, height) = (SIZE.0 * DRAWN, SIZE.1 * DRAWN);
     let mut pixels = vec![0; width as usize * height as usize * 3];
     let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
     draw(&backend.into_drawing_area(), record, DRAWN)?;
-    write(&png, encode(&average(&pixels, width), width / AVERAGED, height / AVERAGED)?)?;
+    write(&png, raster::png(&pixels, width, AVERAGED)?)?;
     Ok([svg, png])
-}
-
-/// Every square of pixels becomes one.
-fn average(pixels: &[u8], width: u32) -> Vec<u8> {
-    let (width, square) = (width as usize, AVERAGED as usize);
-    let height = pixels.len() / 3 / width;
-    let mut small = Vec::with_capacity(pixels.len() / square / square);
-    for y in (0..height).step_by(square) {
-        for x in (0..width).step_by(square) {
-            for channel in 0..3 {
-                let cells = (0..square * square).map(|cell| {
-                    let (x, y) = (x + cell % square, y + cell / square);
-                    usize::from(pixels[(y * width + x) * 3 + channel])
-                });
-                small.push((cells.sum::<usize>() / (square * square)) as u8);
-            }
-        }
-    }
-    small
-}
-
-fn encode(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    // At 200 dots per inch the figure is 11 by 10 inches.
-    let per_metre = (200.0 / 0.0254_f64).round() as u32;
-    encoder.set_pixel_dims(Some(png::PixelDimensions {
-        xppu: per_metre,
-        yppu: per_metre,
-        unit: png::Unit::Meter,
-    }));
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(pixels)?;
-    writer.finish()?;
-    Ok(file)
 }
 
 type Area<B> = DrawingArea<B, Shift>;
@@ -191,7 +63,7 @@ fn draw_all<B: DrawingBackend>(area: &Area<B>, record: &Record, scale: u32) -> D
     let inner = area.margin(margin, margin, margin, margin);
     // The bottom panels carry the time axis and its name.
     let (_, height) = inner.dim_in_pixel();
-    let axis = 26 * scale;
+    let axis = 22 * scale;
     let row = (height - axis) / 4;
     for (half, panels) in inner.split_evenly((1, 2)).iter().zip(PANELS) {
         let cuts = [row, 2 * row, 3 * row].map(|y| y as i32);
@@ -231,15 +103,15 @@ fn draw_panel<B: DrawingBackend>(
 
     let mut chart = ChartBuilder::on(&body)
         .margin_right(14 * scale)
-        .set_label_area_size(LabelAreaPosition::Left, 62 * scale)
-        .set_label_area_size(LabelAreaPosition::Bottom, if last { 44 } else { 18 } * scale)
+        .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
+        .set_label_area_size(LabelAreaPosition::Bottom, if last { 40 } else { 18 } * scale)
         .build_cartesian_2d(0.0..end, min..max)?;
     let decimals = decimals(max - min);
     let text = (FONT, 13 * scale).into_font().color(&BLACK);
     chart
         .configure_mesh()
         .x_labels(9)
-        .y_labels(5)
+        .y_labels(LABELS)
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(scale))
         .axis_style(FRAME.stroke_width(scale))
@@ -247,10 +119,8 @@ fn draw_panel<B: DrawingBackend>(
         .label_style(text.clone())
         .axis_desc_style(text)
         .x_label_formatter(&|time| format!("{}", (time * 1e6).round() / 1e6))
-        // Minus zero is no number that an axis should show.
-        .y_label_formatter(&|value| format!("{:.decimals$}", value + 0.0))
+        .y_label_formatter(&|value| label(*value, decimals))
         .x_desc(if last { "time, s" } else { "" })
-        .y_desc(panel.unit)
         .draw()?;
     for (number, values) in curves.iter().enumerate().rev() {
         let points = points(&times, values, panel.held);
@@ -288,14 +158,17 @@ fn dashes(number: usize) -> Option<(u32, u32)> {
     [None, Some((9, 4)), Some((3, 3))][number]
 }
 
-/// Title on the left, legend on the right: above the curves, never over them.
+/// Title on the left, legend of several curves on the right: above the curves, never over them.
 fn draw_head<B: DrawingBackend>(area: &Area<B>, panel: &Panel, scale: u32) -> Drawn<B> {
     let (width, height) = area.dim_in_pixel();
     let (width, middle, unit) = (width as i32, height as i32 / 2, scale as i32);
     let middle = middle + 4 * unit;
     let title = (FONT, 14 * scale).into_font().color(&BLACK);
     let left = title.clone().pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(panel.title, &left, (62 * unit, middle))?;
+    area.draw_text(panel.title, &left, (LEFT as i32 * unit, middle))?;
+    if panel.curves.len() < 2 {
+        return Ok(());
+    }
     let mut x = width - 14 * unit;
     for (number, (_, label)) in panel.curves.iter().enumerate().rev() {
         let style = COLOURS[number].stroke_width(2 * scale);
@@ -338,9 +211,19 @@ fn range(values: impl Iterator<Item = f64> + Clone, least: f64) -> [f64; 2] {
     [middle - half, middle + half]
 }
 
-/// Decimals that tell apart about five labels over a range.
+/// Decimals that tell apart the labels over a range. Their distance is the next of 1, 2, 5 times a
+/// power of ten, so one of 0.5 or more to its power of ten needs no further decimal.
 fn decimals(range: f64) -> usize {
-    (1.0 - (range / 2.0).log10().floor()).clamp(0.0, 6.0) as usize
+    (-(2.0 * range / LABELS as f64).log10().floor()).clamp(0.0, 6.0) as usize
+}
+
+/// A number on an axis; what rounds to zero has no sign.
+fn label(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if !digits.contains(|c| matches!(c, '1'..='9')) => digits.to_string(),
+        _ => text,
+    }
 }
 
 #[cfg(test)]
@@ -348,11 +231,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn averaging_keeps_the_order_of_pixels() {
-        let pixel = |value: u8| [value; 3];
-        let pixels =
-            [pixel(0), pixel(4), pixel(10), pixel(10), pixel(0), pixel(4), pixel(10), pixel(10)];
-        assert_eq!(average(pixels.as_flattened(), 4), [[2; 3], [10; 3]].as_flattened());
+    fn labels_on_an_axis_are_short() {
+        assert_eq!(decimals(0.015), 3);
+        assert_eq!(decimals(0.045), 2);
+        assert_eq!(decimals(0.2), 2);
+        assert_eq!(decimals(50.0), 0);
+        assert_eq!(label(-1e-17, 2), "0.00");
+        assert_eq!(label(-0.25, 2), "-0.25");
     }
 
     #[test]

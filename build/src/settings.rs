@@ -32,8 +32,8 @@ fn parse_one<'a>(model: &'a ModelDescription, text: &'a str) -> Result<Setting<'
             bail!("--set {text}: {name} is an input; its values over time come from --input")
         }
         _ => bail!(
-            "--set {text}: {name} is a result and cannot be set; the parameters are {}",
-            parameters().collect::<Vec<_>>().join(", ")
+            "--set {text}: {name} is a result and cannot be set; {}",
+            suggest(name, parameters())
         ),
     }
     match number(model, variable, value) {
@@ -111,7 +111,7 @@ pub fn suggest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     near.sort_by(|a, b| strsim::jaro_winkler(name, b).total_cmp(&strsim::jaro_winkler(name, a)));
     near.truncate(3);
     match near.as_slice() {
-        [] => format!("known are {}", known.join(", ")),
+        [] => format!("choose from {}", known.join(", ")),
         near => format!("did you mean {}?", near.join(" or ")),
     }
 }

@@ -17,7 +17,7 @@ const STEPS: [Step; 7] = [
     ("lints", || {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
     }),
-    ("Rust tests", || check(cargo().args(["test", "--workspace"]))),
+    ("Rust tests", || check(cargo().args(["test", "--workspace", "--no-fail-fast"]))),
     ("description", || describe::run(&Describe { check: true, file: None })),
     ("package", || package::build().map(|file| println!("{}", shown(&file)))),
     ("FMU tests", fmu_tests),
@@ -97,7 +97,7 @@ fn fmu_tests() -> Result<()> {
     let tests = root().join("tests/fmu");
     check(
         Command::new(python)
-            .args(["-m", "pytest"])
+            .args(["-m", "pytest", "-p", "no:cacheprovider"])
             .arg(tests)
             .current_dir(root())
             .env("AHV_FMU", fmu),

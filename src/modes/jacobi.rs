@@ -26,17 +26,16 @@ pub(super) fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
                 let root = (1.0 + half_cotangent * half_cotangent).sqrt();
                 let tangent = 1.0 / (half_cotangent.abs() + root).copysign(half_cotangent);
                 let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-                rotate(&mut a, p, q, cosine, tangent * cosine);
-                for k in 0..n {
-                    let (x, y) = (a[p][k], a[q][k]);
-                    a[k][p] = x;
-                    a[k][q] = y;
+                let sine = tangent * cosine;
+                for row in &mut a {
+                    (row[p], row[q]) = turn(row[p], row[q], cosine, sine);
                 }
+                turn_rows(&mut a, p, q, cosine, sine);
                 a[p][p] = app - tangent * apq;
                 a[q][q] = aqq + tangent * apq;
                 a[p][q] = 0.0;
                 a[q][p] = 0.0;
-                rotate(&mut vectors, p, q, cosine, tangent * cosine);
+                turn_rows(&mut vectors, p, q, cosine, sine);
             }
         }
         if !rotated {
@@ -48,10 +47,14 @@ pub(super) fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     pairs
 }
 
-/// Turns the rows p < q into `c p - s q` and `s p + c q`.
-fn rotate(rows: &mut [Vec<f64>], p: usize, q: usize, cosine: f64, sine: f64) {
+fn turn(x: f64, y: f64, cosine: f64, sine: f64) -> (f64, f64) {
+    (cosine * x - sine * y, sine * x + cosine * y)
+}
+
+/// Turns row p into row q; p < q.
+fn turn_rows(rows: &mut [Vec<f64>], p: usize, q: usize, cosine: f64, sine: f64) {
     let (head, tail) = rows.split_at_mut(q);
     for (x, y) in head[p].iter_mut().zip(&mut tail[0]) {
-        (*x, *y) = (cosine * *x - sine * *y, sine * *x + cosine * *y);
+        (*x, *y) = turn(*x, *y, cosine, sine);
     }
 }

@@ -20,9 +20,11 @@ use crate::error::Error;
 
 /// Heave and pitch.
 const RIGID: usize = 2;
-/// Steps between looks at the small eigenproblem.
-const STRIDE: usize = 6;
-/// Vectors at which the search is given up; 30 are usual.
+/// Vectors for each mode before the first look at the small eigenproblem: fewer never suffice.
+const FIRST_LOOK: usize = 3;
+/// Steps between later looks.
+const STRIDE: usize = 3;
+/// Vectors at which the search is given up; 24 are usual.
 const LARGEST_BASIS: usize = 240;
 /// Residual over eigenvalue at which a mode counts as found. The error of omega goes with its
 /// square, that of the shape with itself over the relative gap: both below rounding.
@@ -107,7 +109,6 @@ impl<'a> Basis<'a> {
 
     /// Adds what is new in a vector; returns its components along the basis, the new one last.
     fn push(&mut self, mut vector: Vec<f64>) -> Vec<f64> {
-        let before = dot(&vector, &self.structure.mass_times(&vector)).sqrt();
         let mut components = vec![0.0; self.vectors.len()];
         // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, section 6.9).
         for _ in 0..2 {
@@ -119,6 +120,7 @@ impl<'a> Basis<'a> {
         }
         let mut product = self.structure.mass_times(&vector);
         let norm = dot(&vector, &product).sqrt();
+        let before = dot(&components, &components).sqrt() + norm;
         if norm > NOTHING_LEFT * before {
             scale(&mut vector, 1.0 / norm);
             scale(&mut product, 1.0 / norm);
@@ -166,8 +168,10 @@ pub(super) fn lowest_modes(structure: &Structure, count: usize) -> Result<Vec<Pa
 
     let mut columns: Vec<Vec<f64>> = Vec::new();
     loop {
-        let exhausted = RIGID + columns.len() == basis.vectors.len();
-        if exhausted || (columns.len() > count && columns.len().is_multiple_of(STRIDE)) {
+        let exhausted = basis.vectors.len() <= RIGID + columns.len();
+        if exhausted
+            || (columns.len() >= FIRST_LOOK * count && columns.len().is_multiple_of(STRIDE))
+        {
             let ritz = jacobi::eigen(leading_block(&columns));
             let found = |i: usize, tolerance: f64| {
                 let (flexibility, weights) = &ritz[i];

@@ -1,43 +1,142 @@
-//! Shared by the integration tests.
-#![allow(dead_code, missing_docs)]
+//! The real shared library, loaded as a master does.
 
-use ahv::dynamics::Vehicle;
-use ahv::flight::{Flight, Parameters};
-use ahv::vehicle::{Build, Configuration, Data};
+#![allow(unsafe_code, dead_code)]
 
-pub const CONFIGURATIONS: [Configuration; 3] =
-    [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+use ahv::fmi::sys::{self, FmiString, Status};
+use libloading::{Library, library_filename};
+use std::ffi::{CStr, c_void};
+use std::path::PathBuf;
+use std::sync::Mutex;
 
-pub fn data() -> Data {
-    Data::embedded().expect("the embedded data are valid")
+mod slave;
+#[allow(unused_imports)]
+pub use slave::*;
+
+/// The library that `cargo test` built: beside the test's own executable, or one folder up.
+pub fn library_path() -> PathBuf {
+    let test = std::env::current_exe().expect("the path of this test");
+    let name = library_filename("ahv");
+    test.ancestors()
+        .skip(1)
+        .take(2)
+        .map(|folder| folder.join(&name))
+        .find(|path| path.exists())
+        .expect("the shared library beside the test")
 }
 
-/// The default build of a configuration.
-pub fn build(configuration: Configuration) -> Build {
-    Build { configuration, ..Parameters::new(&data()).build }
+macro_rules! api {
+    ($($field:ident: $function:ident $name:literal;)*) => {
+        /// All functions of the library.
+        pub struct Api {
+            $(pub $field: sys::$function,)*
+            library: Library,
+        }
+
+        impl Api {
+            /// Loads the library and all functions.
+            pub fn load() -> Self {
+                // SAFETY: the library has no initialiser, and the types are proved elsewhere.
+                unsafe {
+                    let library = Library::new(library_path()).expect("the library loads");
+                    Self {
+                        $($field: *library.get($name).expect($name),)*
+                        library,
+                    }
+                }
+            }
+
+            /// Unloads the library.
+            pub fn close(self) {
+                self.library.close().expect("the library unloads");
+            }
+        }
+    };
 }
 
-pub fn vehicle(configuration: Configuration) -> Vehicle {
-    Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+api! {
+    get_types_platform: GetTypesPlatform "fmi2GetTypesPlatform";
+    get_version: GetVersion "fmi2GetVersion";
+    set_debug_logging: SetDebugLogging "fmi2SetDebugLogging";
+    instantiate: Instantiate "fmi2Instantiate";
+    free_instance: FreeInstance "fmi2FreeInstance";
+    setup_experiment: SetupExperiment "fmi2SetupExperiment";
+    enter_initialization_mode: EnterInitializationMode "fmi2EnterInitializationMode";
+    exit_initialization_mode: ExitInitializationMode "fmi2ExitInitializationMode";
+    terminate: Terminate "fmi2Terminate";
+    reset: Reset "fmi2Reset";
+    get_real: GetReal "fmi2GetReal";
+    get_integer: GetInteger "fmi2GetInteger";
+    get_boolean: GetBoolean "fmi2GetBoolean";
+    get_string: GetString "fmi2GetString";
+    set_real: SetReal "fmi2SetReal";
+    set_integer: SetInteger "fmi2SetInteger";
+    set_boolean: SetBoolean "fmi2SetBoolean";
+    set_string: SetString "fmi2SetString";
+    get_state: GetFmuState "fmi2GetFMUstate";
+    set_state: SetFmuState "fmi2SetFMUstate";
+    free_state: FreeFmuState "fmi2FreeFMUstate";
+    state_size: SerializedFmuStateSize "fmi2SerializedFMUstateSize";
+    serialize: SerializeFmuState "fmi2SerializeFMUstate";
+    deserialize: DeSerializeFmuState "fmi2DeSerializeFMUstate";
+    directional_derivative: GetDirectionalDerivative "fmi2GetDirectionalDerivative";
+    set_input_derivatives: SetRealInputDerivatives "fmi2SetRealInputDerivatives";
+    get_output_derivatives: GetRealOutputDerivatives "fmi2GetRealOutputDerivatives";
+    do_step: DoStep "fmi2DoStep";
+    cancel_step: CancelStep "fmi2CancelStep";
+    get_status: GetStatus "fmi2GetStatus";
+    get_real_status: GetRealStatus "fmi2GetRealStatus";
+    get_integer_status: GetIntegerStatus "fmi2GetIntegerStatus";
+    get_boolean_status: GetBooleanStatus "fmi2GetBooleanStatus";
+    get_string_status: GetStringStatus "fmi2GetStringStatus";
 }
 
-/// A trimmed default flight.
-pub fn flight(configuration: Configuration) -> Flight {
-    let mut flight = Flight::new().expect("the embedded data are valid");
-    flight.change(|p| p.build.configuration = configuration);
-    flight.initialise().expect("the default flight has a trim");
-    flight
+/// What a logger was told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Record {
+    pub name: String,
+    pub status: Status,
+    pub category: String,
+    pub message: String,
 }
 
-/// |a - b| relative to the larger of |b| and `floor`.
-pub fn deviation(a: f64, b: f64, floor: f64) -> f64 {
-    (a - b).abs() / b.abs().max(floor)
+/// Where a logger keeps it; its address is the environment pointer.
+pub type Sink = Mutex<Vec<Record>>;
+
+unsafe extern "C" fn record(
+    environment: *mut c_void,
+    name: FmiString,
+    status: Status,
+    category: FmiString,
+    message: FmiString,
+) {
+    // SAFETY: the environment is the sink that was handed to fmi2Instantiate, the rest C strings.
+    unsafe {
+        let text = |pointer| CStr::from_ptr(pointer).to_str().expect("UTF-8").to_string();
+        let record =
+            Record { name: text(name), status, category: text(category), message: text(message) };
+        (*environment.cast::<Sink>()).lock().unwrap().push(record);
+    }
 }
 
-pub fn assert_close(what: &str, got: f64, expected: f64, tolerance: f64) {
-    let deviation = deviation(got, expected, f64::MIN_POSITIVE);
-    assert!(
-        deviation <= tolerance,
-        "{what}: {got} against {expected}, off by {deviation:.2e} (limit {tolerance:.0e})"
-    );
+/// The recording logger. Called without variable arguments, a function of C's variadic kind is
+/// called like any other.
+pub fn recorder() -> sys::CallbackLogger {
+    // SAFETY: see above.
+    unsafe {
+        std::mem::transmute::<
+            unsafe extern "C" fn(*mut c_void, FmiString, Status, FmiString, FmiString),
+            sys::CallbackLogger,
+        >(record)
+    }
+}
+
+/// Callbacks with a logger that records into `sink`.
+pub fn callbacks(sink: &Sink) -> sys::CallbackFunctions {
+    sys::CallbackFunctions {
+        logger: Some(recorder()),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: std::ptr::from_ref(sink).cast_mut().cast(),
+    }
 }

@@ -1,0 +1,93 @@
+//! The description against the schema's rules that no compiler sees.
+
+use super::*;
+use crate::model_description::{Kind, ModelDescription, Real};
+use quick_xml::events::{BytesStart, Event};
+
+/// Every element with its depth, in document order.
+fn elements(xml: &str) -> Vec<(usize, BytesStart<'static>)> {
+    let mut reader = quick_xml::Reader::from_str(xml);
+    let (mut depth, mut found) = (0, Vec::new());
+    loop {
+        match reader.read_event().unwrap() {
+            Event::Start(start) => {
+                found.push((depth, start.into_owned()));
+                depth += 1;
+            }
+            Event::Empty(start) => found.push((depth, start.into_owned())),
+            Event::End(_) => depth -= 1,
+            Event::Eof => return found,
+            _ => {}
+        }
+    }
+}
+
+fn attribute(element: &BytesStart, name: &str) -> Option<String> {
+    let found = element.try_get_attribute(name).unwrap()?;
+    Some(found.value.into_owned())
+}
+
+#[test]
+fn elements_stand_in_the_order_of_the_schema() {
+    let xml = xml().unwrap();
+    let elements = elements(&xml);
+    let at = |depth| elements.iter().filter(move |(found, _)| *found == depth);
+    let names = at(1).map(|(_, element)| element.name().into_inner().to_string());
+    let expected = [
+        "CoSimulation",
+        "UnitDefinitions",
+        "TypeDefinitions",
+        "LogCategories",
+        "DefaultExperiment",
+        "ModelVariables",
+        "ModelStructure",
+    ];
+    assert_eq!(names.collect::<Vec<_>>(), expected);
+    let variables = at(2).filter(|(_, element)| element.name().as_ref() == "ScalarVariable");
+    for ((_, element), (row, variable)) in variables.zip(TABLE.iter().enumerate()) {
+        assert_eq!(attribute(element, "name").as_deref(), Some(variable.name));
+        assert_eq!(attribute(element, "valueReference"), Some(row.to_string()));
+    }
+}
+
+#[test]
+fn unknowns_ascend_and_have_one_kind_per_dependency() {
+    let xml = xml().unwrap();
+    for (_, element) in elements(&xml) {
+        let Some(list) = attribute(&element, "dependencies") else { continue };
+        let indices: Vec<usize> =
+            list.split_whitespace().map(|index| index.parse().unwrap()).collect();
+        assert!(indices.is_sorted_by(|a, b| a < b), "{element:?}");
+        assert!(indices.iter().all(|index| (1..=TABLE.len()).contains(index)), "{element:?}");
+        if let Some(kinds) = attribute(&element, "dependenciesKind") {
+            assert_eq!(kinds.split_whitespace().count(), indices.len(), "{element:?}");
+        }
+    }
+}
+
+#[test]
+fn start_values_lie_within_their_limits_and_every_enumeration_has_items() {
+    let model = ModelDescription::parse(&xml().unwrap()).unwrap();
+    let flight = Flight::new().unwrap();
+    for (variable, row) in model.variables().iter().zip(&TABLE) {
+        let start = row.get(&flight);
+        match &variable.kind {
+            Kind::Real(Real { min: Some(min), max: Some(max), .. }) => {
+                assert!((*min..=*max).contains(&start), "{}", variable.name);
+            }
+            Kind::Enumeration(_) => {
+                let known = |item: &crate::model_description::Item| f64::from(item.value) == start;
+                assert!(model.items(variable).iter().any(known), "{}", variable.name);
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn one_unit_per_name_with_degrees_for_rates() {
+    let units = units();
+    let rates: Vec<_> = units.iter().filter(|unit| unit.name == "rad/s").collect();
+    assert_eq!(rates.len(), 1);
+    assert_eq!(rates[0].display.map(|(name, _)| name), Some("deg/s"));
+}

@@ -1,0 +1,147 @@
+//! The tool from outside, as a user types it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use tempfile::TempDir;
+
+struct Outcome {
+    ok: bool,
+    out: String,
+    err: String,
+}
+
+fn ahv(arguments: &[&str]) -> Outcome {
+    let output = Command::new(env!("CARGO_BIN_EXE_ahv")).args(arguments).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Outcome { ok: output.status.success(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// A library that need not run, and a place to put an FMU.
+fn scratch() -> (TempDir, String, PathBuf) {
+    let directory = TempDir::new().unwrap();
+    let library = directory.path().join("any.so");
+    fs::write(&library, b"no library").unwrap();
+    let option = format!("linux64={}", library.display());
+    let fmu = directory.path().join("ahv.fmu");
+    (directory, option, fmu)
+}
+
+fn package(option: &str, fmu: &Path) -> Vec<u8> {
+    let done = ahv(&["package", "--library", option, "--output", fmu.to_str().unwrap()]);
+    assert!(done.ok, "{}", done.err);
+    fs::read(fmu).unwrap()
+}
+
+#[test]
+fn committed_description_is_up_to_date() {
+    let check = ahv(&["describe", "--check"]);
+    assert!(check.ok, "{}", check.err);
+}
+
+#[test]
+fn outdated_description_is_refused_with_line_and_remedy() {
+    let directory = TempDir::new().unwrap();
+    let file = directory.path().join("modelDescription.xml");
+    let path = file.to_str().unwrap();
+    assert!(ahv(&["describe", "--file", path]).ok);
+    let edited = fs::read_to_string(&file).unwrap().replacen("\"Airspeed\"", "\"Speed\"", 1);
+    fs::write(&file, edited).unwrap();
+    let check = ahv(&["describe", "--check", "--file", path]);
+    assert!(!check.ok);
+    assert!(check.err.contains("run `cargo ahv describe`"), "{}", check.err);
+    assert!(check.err.contains("description=\"Speed\""), "{}", check.err);
+}
+
+#[test]
+fn same_library_gives_the_same_fmu() {
+    let (_directory, option, fmu) = scratch();
+    let first = package(&option, &fmu);
+    assert_eq!(first, package(&option, &fmu));
+    let archive = zip::ZipArchive::new(std::io::Cursor::new(first)).unwrap();
+    let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+    for start in [
+        "modelDescription.xml",
+        "binaries/linux64/ahv.so",
+        "documentation/index.html",
+        "documentation/licenses/libm-",
+    ] {
+        assert!(names.iter().any(|name| name.starts_with(start)), "{start} is missing");
+    }
+}
+
+#[test]
+fn settings_are_refused_with_what_would_be_accepted() {
+    for (setting, expected) in [
+        ("mach_0=8", "there is no variable `mach_0`; did you mean mach0?"),
+        ("mach=8", "mach is a result and cannot be set; did you mean mach0?"),
+        ("mach0", "name=value is expected"),
+        ("mach0=fast", "a finite number is expected"),
+        ("mach0=nan", "a finite number is expected"),
+        ("mach0=1000", "the range is ["),
+        ("gamma0=1grad", "in rad or deg"),
+        ("V=2000", "V is a result and cannot be set; choose from configuration, aero,"),
+        ("delta_e=0.1", "delta_e is an input"),
+        ("configuration=Stiff", "choose one of Rigid (1), EvenMassBeam (2), SloshBeam (3)"),
+        ("trim=maybe", "true or false is expected"),
+    ] {
+        let trim = ahv(&["trim", "--set", setting]);
+        assert!(!trim.ok, "{setting} was accepted");
+        let start = format!("error: --set {setting}: ");
+        assert!(trim.err.starts_with(&start) && trim.err.contains(expected), "{}", trim.err);
+    }
+}
+
+#[test]
+fn impossible_trim_names_the_limit() {
+    let trim = ahv(&["trim", "--set", "altitude0=60000"]);
+    assert!(!trim.ok);
+    assert!(trim.err.contains("altitude0 = 60000 m"), "{}", trim.err);
+}
+
+#[test]
+fn settings_take_names_units_and_numbers() {
+    let value = |setting: &str, name: &str| {
+        let trim = ahv(&["trim", "--json", "--set", setting]);
+        assert!(trim.ok, "{}", trim.err);
+        let json: serde_json::Value = serde_json::from_str(&trim.out).unwrap();
+        match name {
+            "configuration" => json[name].to_string(),
+            _ => json["trim"][name]["value"].to_string(),
+        }
+    };
+    assert_eq!(value("configuration=rigid", "configuration"), "\"Rigid\"");
+    assert_eq!(value("configuration=2", "configuration"), "\"EvenMassBeam\"");
+    assert_eq!(value("gamma0=1deg", "gamma"), 1f64.to_radians().to_string());
+    assert_eq!(value("gamma0=0.01rad", "gamma"), "0.01");
+    assert_eq!(value("mach0=9", "mach"), "9.0");
+}
+
+#[test]
+fn fly_refuses_a_bad_file_before_it_flies() {
+    let (directory, option, fmu) = scratch();
+    package(&option, &fmu);
+    let input = directory.path().join("bad.csv");
+    fs::write(&input, "time,phi\n0.1,0\n0.2,full\n").unwrap();
+    let fmu = fmu.to_str().unwrap();
+    let fly = ahv(&["fly", "--fmu", fmu, "--input", input.to_str().unwrap()]);
+    assert!(!fly.ok);
+    assert!(fly.err.contains("bad.csv, line 3, column phi: `full`"), "{}", fly.err);
+
+    let fly = ahv(&["fly", "--fmu", fmu, "--step", "0"]);
+    assert!(fly.err.contains("--step 0: a finite number above zero"), "{}", fly.err);
+    let fly = ahv(&["fly", "--fmu", input.to_str().unwrap()]);
+    assert!(fly.err.contains("is not an FMU"), "{}", fly.err);
+    let fly = ahv(&["fly", "--fmu", "none.fmu"]);
+    assert!(fly.err.contains("cannot open none.fmu"), "{}", fly.err);
+}
+
+#[test]
+fn poles_stand_side_by_side() {
+    let poles = ahv(&["poles", "--all"]);
+    assert!(poles.ok, "{}", poles.err);
+    for word in ["Rigid", "EvenMassBeam", "SloshBeam", "phugoid", "short period", "height"] {
+        assert!(poles.out.contains(word), "{word} is missing in\n{}", poles.out);
+    }
+    assert!(ahv(&["modes"]).out.contains("3rd flexible"));
+}

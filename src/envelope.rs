@@ -1,0 +1,56 @@
+//! The region in which the curve fits hold. Nothing is flown outside it.
+
+use crate::atmosphere::Atmosphere;
+use crate::dynamics::State;
+
+/// Lower and upper limits.
+#[derive(Debug, Clone, Copy)]
+pub struct Envelope {
+    /// Incidence, rad.
+    pub alpha: [f64; 2],
+    /// Mach number.
+    pub mach: [f64; 2],
+    /// Altitude, m.
+    pub altitude: [f64; 2],
+}
+
+/// A limited variable with its value and limits, in the units of the variable table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limited {
+    /// Name in the variable table.
+    pub variable: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Its limits.
+    pub limits: [f64; 2],
+}
+
+impl Limited {
+    /// Distance to the nearer limit over the width of the range; negative outside.
+    fn margin(&self) -> f64 {
+        let [min, max] = self.limits;
+        f64::min(self.value - min, max - self.value) / (max - min)
+    }
+}
+
+impl Envelope {
+    fn limited(&self, atmosphere: &Atmosphere, x: &State) -> [Limited; 3] {
+        let mach = x[0] / atmosphere.air(x[1]).sound_speed;
+        [
+            Limited { variable: "h", value: x[1], limits: self.altitude },
+            Limited { variable: "mach", value: mach, limits: self.mach },
+            Limited { variable: "alpha", value: x[3], limits: self.alpha },
+        ]
+    }
+
+    /// Whether the fits hold at a state; never for one that is not a number.
+    pub fn holds(&self, atmosphere: &Atmosphere, x: &State) -> bool {
+        self.limited(atmosphere, x).iter().all(|limited| limited.margin() >= 0.0)
+    }
+
+    /// The variable that is outside its limits or, inside all, next to them.
+    pub fn tightest(&self, atmosphere: &Atmosphere, x: &State) -> Limited {
+        let [first, rest @ ..] = self.limited(atmosphere, x);
+        rest.into_iter().fold(first, |a, b| if b.margin() < a.margin() { b } else { a })
+    }
+}

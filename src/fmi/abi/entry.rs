@@ -1,0 +1,135 @@
+//! From C to the guard and back: instances, arrays, strings, messages.
+
+use crate::fmi::failure::{Failure, Outcome};
+use crate::fmi::guard;
+use crate::fmi::instance::Instance;
+use crate::fmi::lifecycle::Call;
+use crate::fmi::log::Message;
+use crate::fmi::sys;
+use core::ffi::{CStr, c_char};
+use core::mem::MaybeUninit;
+use core::slice;
+use std::ffi::CString;
+
+/// What a `fmi2Component` points to.
+pub(super) struct Component {
+    pub instance: Instance,
+    pub name: CString,
+    /// A copy: the master's struct is only valid during `fmi2Instantiate`.
+    pub callbacks: sys::CallbackFunctions,
+}
+
+/// Makes one call on an instance; its messages go out afterwards, when no reference to the instance
+/// is left, so a logger may call the FMU.
+///
+/// # Safety
+/// `component` is NULL or a live instance that no other thread is using.
+pub(super) unsafe fn enter(
+    component: sys::Component,
+    call: &Call,
+    body: impl FnOnce(&mut Instance) -> Outcome,
+) -> sys::Status {
+    let component = component.cast::<Component>();
+    if component.is_null() {
+        return sys::Status::Error;
+    }
+    // SAFETY: not NULL, hence live and ours alone by this function's contract.
+    let instance = unsafe { &mut (*component).instance };
+    let status = guard::run(instance, call, body);
+    let messages = instance.log.take();
+    if !messages.is_empty() {
+        // SAFETY: as above; the name lives as long as the instance, the callbacks are copied.
+        let (name, callbacks) = unsafe { ((*component).name.as_ptr(), (*component).callbacks) };
+        for message in &messages {
+            // SAFETY: the logger is the master's, the name is a live C string.
+            unsafe { deliver(&callbacks, name, message) };
+        }
+    }
+    status
+}
+
+/// Hands a message to the master's logger, if there is one.
+///
+/// # Safety
+/// `callbacks.logger` is NULL or a logger of the standard; `name` is a C string.
+pub(super) unsafe fn deliver(
+    callbacks: &sys::CallbackFunctions,
+    name: *const c_char,
+    message: &Message,
+) {
+    if let Some(logger) = callbacks.logger {
+        let (category, text) = (message.category.name().as_ptr(), message.text.as_ptr());
+        // SAFETY: by this function's contract; category and text are live C strings, and the text
+        // names no further arguments.
+        unsafe { logger(callbacks.environment, name, message.status, category, text) };
+    }
+}
+
+/// Whether `count` elements can lie at `pointer`: alignment, and a length that a negative number
+/// cast to `size_t` does not have.
+fn plausible<T>(pointer: *const T, count: usize) -> bool {
+    !pointer.is_null() && pointer.is_aligned() && count <= isize::MAX as usize / size_of::<T>()
+}
+
+/// An array to read; no element needs no array.
+///
+/// # Safety
+/// `pointer` is NULL or leads to `count` elements that nobody changes meanwhile.
+pub(super) unsafe fn input<'a, T>(
+    argument: &'static str,
+    pointer: *const T,
+    count: usize,
+) -> Result<&'a [T], Failure> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    if !plausible(pointer, count) {
+        return Err(Failure::BadPointer { argument });
+    }
+    // SAFETY: plausible, and valid by this function's contract.
+    Ok(unsafe { slice::from_raw_parts(pointer, count) })
+}
+
+/// An array to write, which a master need not have initialised; no element needs no array.
+///
+/// # Safety
+/// `pointer` is NULL or leads to room for `count` elements that nobody else uses meanwhile.
+pub(super) unsafe fn output<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+    count: usize,
+) -> Result<&'a mut [MaybeUninit<T>], Failure> {
+    if count == 0 {
+        return Ok(&mut []);
+    }
+    if !plausible(pointer, count) {
+        return Err(Failure::BadPointer { argument });
+    }
+    // SAFETY: plausible, and valid by this function's contract.
+    Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+/// A single result.
+///
+/// # Safety
+/// `pointer` is NULL or leads to room for one value.
+pub(super) unsafe fn store<T>(argument: &'static str, pointer: *mut T, value: T) -> Outcome {
+    // SAFETY: by this function's contract.
+    unsafe { output(argument, pointer, 1) }?[0].write(value);
+    Ok(())
+}
+
+/// A string; what is not UTF-8 is replaced, as it only goes into messages and comparisons.
+///
+/// # Safety
+/// `pointer` is NULL or a C string.
+pub(super) unsafe fn string(
+    argument: &'static str,
+    pointer: sys::FmiString,
+) -> Result<String, Failure> {
+    if pointer.is_null() {
+        return Err(Failure::BadPointer { argument });
+    }
+    // SAFETY: not NULL, and a C string by this function's contract.
+    Ok(unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned())
+}

@@ -1,0 +1,160 @@
+//! What a call can be refused for. The text is what a user reads in the master's log.
+
+use crate::error::Error;
+use crate::fmi::lifecycle::{PHASES, Phase};
+use crate::fmi::sys::{Status, StatusKind};
+
+/// What a call of the standard comes to.
+pub type Outcome = Result<(), Failure>;
+
+/// Why a call did not do what it was asked. The instance is then as it was, but for
+/// [`Failure::Incomplete`] and [`Failure::Initialisation`].
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Failure {
+    /// Out of order.
+    #[error("not allowed in state {phase}; allowed in: {}", names(*allowed))]
+    IllegalCall {
+        /// State of the instance.
+        phase: Phase,
+        /// Bits of the states in which the call is legal.
+        allowed: u16,
+    },
+    /// `fmi2EnterInitializationMode` without `fmi2SetupExperiment`.
+    #[error("call fmi2SetupExperiment first, it gives the start time")]
+    NoExperiment,
+    /// A pointer that has to lead somewhere is NULL, or misaligned, or its length is absurd.
+    #[error("argument {argument} is NULL or does not point to an array of the length given")]
+    BadPointer {
+        /// Name of the argument in the standard.
+        argument: &'static str,
+    },
+    /// An argument has a value that makes no sense.
+    #[error("{argument} = {value} is refused: {expected}")]
+    Argument {
+        /// Name of the argument in the standard.
+        argument: &'static str,
+        /// The refused value.
+        value: f64,
+        /// What would be accepted.
+        expected: String,
+    },
+    /// No such variable.
+    #[error("value reference {reference} is unknown: the last one is {last}")]
+    UnknownReference {
+        /// The refused value reference.
+        reference: u32,
+        /// The largest value reference there is.
+        last: usize,
+    },
+    /// The variable has another type.
+    #[error("{variable} (value reference {reference}) is no {asked}, it is a {has}")]
+    WrongType {
+        /// Name of the variable.
+        variable: &'static str,
+        /// Its value reference.
+        reference: u32,
+        /// Type that the called function works on.
+        asked: &'static str,
+        /// Type of the variable.
+        has: &'static str,
+    },
+    /// A fixed parameter after initialisation.
+    #[error(
+        "{variable} = {value} is refused: a fixed parameter can only be set before the end of \
+         the initialization mode"
+    )]
+    TooLate {
+        /// Name of the parameter.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
+    /// The model gives no number for a variable: it is never handed on.
+    #[error("{variable} = {value}: the model has no finite value here")]
+    NotFinite {
+        /// Name of the variable.
+        variable: &'static str,
+        /// What was computed.
+        value: f64,
+    },
+    /// The communication point is not where the last step ended.
+    #[error(
+        "currentCommunicationPoint = {asked} s and communicationStepSize = {step} s do not \
+         continue from the instance's time {time} s"
+    )]
+    CommunicationPoint {
+        /// Communication point given.
+        asked: f64,
+        /// Step given.
+        step: f64,
+        /// Time of the instance.
+        time: f64,
+    },
+    /// A step past the stop time.
+    #[error("the step ends at {end} s, past the stop time {stop} s of fmi2SetupExperiment")]
+    PastStop {
+        /// End of the step.
+        end: f64,
+        /// Stop time.
+        stop: f64,
+    },
+    /// Only a part of the step could be computed; the simulation should end here.
+    #[error(transparent)]
+    Incomplete(Error),
+    /// There is no initial state; reset the instance or restore an FMU state.
+    #[error(transparent)]
+    Initialisation(Error),
+    /// The model refuses.
+    #[error(transparent)]
+    Model(#[from] Error),
+    /// Status information that synchronous steps do not have.
+    #[error("status kind {} is not available as {asked}: no step is ever pending", kind.0)]
+    NoStatus {
+        /// What was asked for.
+        kind: StatusKind,
+        /// Type that the called function gives.
+        asked: &'static str,
+    },
+    /// An optional capability that this FMU does not have.
+    #[error("not provided: the model description says {capability}")]
+    NotProvided {
+        /// Attribute of the model description.
+        capability: &'static str,
+    },
+    /// A log category that the model description does not list.
+    #[error("log category \"{category}\" is unknown; there are: {known}")]
+    UnknownCategory {
+        /// The refused category.
+        category: String,
+        /// The categories there are.
+        known: String,
+    },
+    /// Bytes that are no FMU state of this model.
+    #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
+    Bytes {
+        /// How many bytes were given.
+        length: usize,
+        /// What is wrong with them.
+        problem: String,
+    },
+}
+
+impl Failure {
+    /// What the function returns. Argument errors are errors and nothing milder: a master must not
+    /// go on with a value that was not taken.
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
+            _ => Status::Error,
+        }
+    }
+}
+
+fn names(allowed: u16) -> String {
+    let names: Vec<_> = PHASES
+        .iter()
+        .filter(|phase| allowed & phase.bit() != 0)
+        .map(|phase| phase.to_string())
+        .collect();
+    names.join(", ")
+}

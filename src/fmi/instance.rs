@@ -1,0 +1,267 @@
+//! One instance: its experiment, its steps and its status.
+
+use crate::error::Error;
+use crate::flight::{DEFAULT_TOLERANCE, Flight};
+use crate::fmi::failure::{Failure, Outcome};
+use crate::fmi::lifecycle::Phase;
+use crate::fmi::log::Log;
+use crate::fmi::snapshot::FmuState;
+use crate::fmi::sys::{Status, StatusKind};
+
+/// Tolerances that the integrator is given: below the first, rounding errors of double precision
+/// decide, above the second the error estimate means nothing. A master's wish is moved into this
+/// range, as a setup that works must not warn.
+pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
+
+/// Two instants this close, relative to their size or the step, are the same: masters add up
+/// communication points in different ways, or pass them on as decimal text.
+pub const SAME_INSTANT: f64 = 1e-9;
+
+/// What an instance remembers besides the flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Life {
+    /// State in the standard's table.
+    pub phase: Phase,
+    /// Stop time (s), infinite if there is none, once `fmi2SetupExperiment` was called.
+    pub stop: Option<f64>,
+    /// Whether a step ended early and the simulation should end.
+    pub ended: bool,
+}
+
+impl Life {
+    const NEW: Self = Self { phase: Phase::Instantiated, stop: None, ended: false };
+}
+
+/// An instance of the FMU.
+#[derive(Debug)]
+pub struct Instance {
+    /// As it was when instantiated: what a reset goes back to.
+    pristine: Flight,
+    pub(super) flight: Flight,
+    life: Life,
+    logging_on: bool,
+    /// Messages for the master.
+    pub log: Log,
+}
+
+impl Instance {
+    /// A new instance.
+    ///
+    /// # Errors
+    /// [`Error::Data`] if the data files built in are not those of a vehicle.
+    pub fn new(logging_on: bool) -> Result<Self, Error> {
+        let pristine = Flight::new()?;
+        let flight = pristine.clone();
+        Ok(Self { pristine, flight, life: Life::NEW, logging_on, log: Log::new(logging_on) })
+    }
+
+    /// State in the standard's table.
+    pub fn phase(&self) -> Phase {
+        self.life.phase
+    }
+
+    /// Makes the instance unusable.
+    pub fn ruin(&mut self) {
+        self.life.phase = Phase::Fatal;
+    }
+
+    /// `fmi2SetDebugLogging`.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownCategory`].
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[String]) -> Outcome {
+        self.log.switch(on, categories)
+    }
+
+    /// `fmi2SetupExperiment`; undefined arguments are `None`.
+    ///
+    /// # Errors
+    /// [`Failure::Argument`].
+    pub fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Outcome {
+        let refuse = |argument, value, expected: &str| {
+            Err(Failure::Argument { argument, value, expected: expected.to_string() })
+        };
+        if let Some(value) = tolerance
+            && !(value > 0.0 && value.is_finite())
+        {
+            return refuse("tolerance", value, "a positive number is needed");
+        }
+        if !start.is_finite() {
+            return refuse("startTime", start, "a finite number is needed");
+        }
+        let stop = stop.unwrap_or(f64::INFINITY);
+        if stop.is_nan() || stop < start {
+            return refuse("stopTime", stop, "it must not lie before the start time");
+        }
+        let [least, largest] = TOLERANCES;
+        let tolerance = tolerance.unwrap_or(DEFAULT_TOLERANCE).clamp(least, largest);
+        self.flight.set_experiment(start, tolerance);
+        self.life.stop = Some(stop);
+        self.log.push(Status::Ok, || {
+            format!("fmi2SetupExperiment: start at {start} s, relative tolerance {tolerance:e}")
+        });
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    ///
+    /// # Errors
+    /// [`Failure::NoExperiment`].
+    pub fn enter_initialization_mode(&mut self) -> Outcome {
+        self.life.stop.ok_or(Failure::NoExperiment)?;
+        self.life.phase = Phase::InitializationMode;
+        Ok(())
+    }
+
+    /// `fmi2ExitInitializationMode`: finds the initial state.
+    ///
+    /// # Errors
+    /// [`Failure::Initialisation`], for example without a trim; the state is then error.
+    pub fn exit_initialization_mode(&mut self) -> Outcome {
+        if let Err(error) = self.flight.evaluate() {
+            self.life.phase = Phase::Error;
+            return Err(Failure::Initialisation(error));
+        }
+        self.life.phase = Phase::StepComplete;
+        if let Some(trim) = self.flight.trim() {
+            let (alpha, [delta_e, phi]) = (trim.state[3], trim.control);
+            self.log.push(Status::Ok, || {
+                format!(
+                    "fmi2ExitInitializationMode: start with alpha = {alpha} rad, \
+                     delta_e = {delta_e} rad, phi = {phi}"
+                )
+            });
+        }
+        Ok(())
+    }
+
+    /// `fmi2Terminate`: nothing is left to do, values can still be read.
+    ///
+    /// # Errors
+    /// None.
+    pub fn terminate(&mut self) -> Outcome {
+        self.life.phase = Phase::Terminated;
+        Ok(())
+    }
+
+    /// `fmi2Reset`: as just instantiated, with the logging of then.
+    ///
+    /// # Errors
+    /// None.
+    pub fn reset(&mut self) -> Outcome {
+        self.flight = self.pristine.clone();
+        self.life = Life::NEW;
+        self.log.switch(false, &[])?;
+        self.log.switch(self.logging_on, &[])
+    }
+
+    /// `fmi2DoStep`. Rounding in `point` is accepted; the step then starts at the instance's own
+    /// time, and ends exactly at `point + step`.
+    ///
+    /// # Errors
+    /// [`Failure::Argument`], [`Failure::CommunicationPoint`] and [`Failure::PastStop`] change
+    /// nothing. After [`Failure::Incomplete`] time and state are those of the last valid instant.
+    pub fn do_step(&mut self, point: f64, step: f64) -> Outcome {
+        let time = self.flight.time();
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(Failure::Argument {
+                argument: "communicationStepSize",
+                value: step,
+                expected: "a positive number is needed".to_string(),
+            });
+        }
+        let end = point + step;
+        let same = |a: f64, b: f64| (a - b).abs() <= SAME_INSTANT * a.abs().max(b.abs()).max(step);
+        if !(end.is_finite() && same(point, time) && end >= time) {
+            return Err(Failure::CommunicationPoint { asked: point, step, time });
+        }
+        if let Some(stop) = self.life.stop
+            && end > stop
+            && !same(end, stop)
+        {
+            return Err(Failure::PastStop { end, stop });
+        }
+        // A step below the resolution of time ends where it starts.
+        if end == time {
+            return Ok(());
+        }
+        match self.flight.advance(end) {
+            Ok(()) => Ok(()),
+            // A part of the step was flown, so the status is discard. The integrator chose its own
+            // steps down to the last valid instant: a shorter communication step gets no further,
+            // so the instance asks for the end of the simulation in both cases.
+            Err(error @ (Error::Envelope { .. } | Error::StepSize { .. })) => {
+                self.life.phase = Phase::StepFailed;
+                self.life.ended = true;
+                Err(Failure::Incomplete(error))
+            }
+            Err(error) => {
+                self.life.phase = Phase::Error;
+                Err(Failure::Initialisation(error))
+            }
+        }
+    }
+
+    /// `fmi2CancelStep`: never legal, as no step is ever pending.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`].
+    pub fn cancel_step(&mut self) -> Outcome {
+        Err(Failure::NotProvided { capability: "canRunAsynchronuously = false" })
+    }
+
+    /// `fmi2GetRealStatus`: the end of the last step, or the instant at which it ended early.
+    ///
+    /// # Errors
+    /// [`Failure::NoStatus`].
+    pub fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
+        if kind == StatusKind::LAST_SUCCESSFUL_TIME {
+            return Ok(self.flight.time());
+        }
+        Err(Failure::NoStatus { kind, asked: "fmi2Real" })
+    }
+
+    /// `fmi2GetBooleanStatus`: whether the simulation should end.
+    ///
+    /// # Errors
+    /// [`Failure::NoStatus`].
+    pub fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
+        if kind == StatusKind::TERMINATED {
+            return Ok(self.life.ended);
+        }
+        Err(Failure::NoStatus { kind, asked: "fmi2Boolean" })
+    }
+
+    /// `fmi2GetFMUstate`.
+    pub fn state(&self) -> FmuState {
+        FmuState { flight: self.flight.snapshot(), life: self.life }
+    }
+
+    /// `fmi2SetFMUstate`.
+    ///
+    /// # Errors
+    /// [`Failure::Model`] if the flight cannot be rebuilt.
+    pub fn set_state(&mut self, state: &FmuState) -> Outcome {
+        self.flight.rewind(&state.flight)?;
+        self.life = state.life;
+        Ok(())
+    }
+
+    /// `fmi2SerializeFMUstate`.
+    pub fn serialize(&self, state: &FmuState) -> Vec<u8> {
+        state.encode(&self.pristine)
+    }
+
+    /// `fmi2DeSerializeFMUstate`.
+    ///
+    /// # Errors
+    /// [`Failure::Bytes`].
+    pub fn deserialize(&self, bytes: &[u8]) -> Result<FmuState, Failure> {
+        FmuState::decode(bytes, &self.pristine)
+    }
+}

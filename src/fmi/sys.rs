@@ -1,0 +1,157 @@
+//! C types of FMI 2.0 (`fmi2TypesPlatform.h`, `fmi2FunctionTypes.h`), written by hand and proved
+//! against the official headers by `tests/abi_signatures.rs`.
+
+use core::ffi::{c_char, c_double, c_int, c_uint, c_void};
+
+/// `fmi2Component`.
+pub type Component = *mut c_void;
+/// `fmi2ComponentEnvironment`.
+pub type ComponentEnvironment = *mut c_void;
+/// `fmi2FMUstate`.
+pub type FmuState = *mut c_void;
+/// `fmi2ValueReference`.
+pub type ValueReference = c_uint;
+/// `fmi2Real`.
+pub type Real = c_double;
+/// `fmi2Integer`.
+pub type Integer = c_int;
+/// `fmi2Boolean`: [`TRUE`] or [`FALSE`].
+pub type Boolean = c_int;
+/// `fmi2String`.
+pub type FmiString = *const c_char;
+/// `fmi2Byte`.
+pub type Byte = c_char;
+
+/// `fmi2True`.
+pub const TRUE: Boolean = 1;
+/// `fmi2False`.
+pub const FALSE: Boolean = 0;
+
+/// `fmi2Status`. Only ever produced here, so a Rust enumeration is safe.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub enum Status {
+    /// `fmi2OK`.
+    Ok,
+    /// `fmi2Warning`.
+    Warning,
+    /// `fmi2Discard`.
+    Discard,
+    /// `fmi2Error`.
+    Error,
+    /// `fmi2Fatal`.
+    Fatal,
+    /// `fmi2Pending`.
+    Pending,
+}
+
+/// `fmi2Type`. A master may pass any number, so this is no Rust enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct Type(pub c_uint);
+
+impl Type {
+    /// `fmi2ModelExchange`.
+    pub const MODEL_EXCHANGE: Self = Self(0);
+    /// `fmi2CoSimulation`.
+    pub const CO_SIMULATION: Self = Self(1);
+}
+
+/// `fmi2StatusKind`. A master may pass any number, so this is no Rust enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(transparent)]
+pub struct StatusKind(pub c_uint);
+
+impl StatusKind {
+    /// `fmi2DoStepStatus`.
+    pub const DO_STEP_STATUS: Self = Self(0);
+    /// `fmi2PendingStatus`.
+    pub const PENDING_STATUS: Self = Self(1);
+    /// `fmi2LastSuccessfulTime`.
+    pub const LAST_SUCCESSFUL_TIME: Self = Self(2);
+    /// `fmi2Terminated`.
+    pub const TERMINATED: Self = Self(3);
+}
+
+/// `fmi2CallbackLogger`.
+pub type CallbackLogger = unsafe extern "C" fn(
+    environment: ComponentEnvironment,
+    instance_name: FmiString,
+    status: Status,
+    category: FmiString,
+    message: FmiString,
+    ...
+);
+/// `fmi2CallbackAllocateMemory`.
+pub type CallbackAllocateMemory = unsafe extern "C" fn(count: usize, size: usize) -> *mut c_void;
+/// `fmi2CallbackFreeMemory`.
+pub type CallbackFreeMemory = unsafe extern "C" fn(object: *mut c_void);
+/// `fmi2StepFinished`.
+pub type StepFinished = unsafe extern "C" fn(environment: ComponentEnvironment, status: Status);
+
+/// `fmi2CallbackFunctions`. Any of the functions may be NULL.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CallbackFunctions {
+    /// Takes messages.
+    pub logger: Option<CallbackLogger>,
+    /// Not used, as `canNotUseMemoryManagementFunctions` is true.
+    pub allocate_memory: Option<CallbackAllocateMemory>,
+    /// Not used, as `canNotUseMemoryManagementFunctions` is true.
+    pub free_memory: Option<CallbackFreeMemory>,
+    /// Not used, as steps are synchronous.
+    pub step_finished: Option<StepFinished>,
+    /// Passed back to the callbacks.
+    pub environment: ComponentEnvironment,
+}
+
+/// Types of the exported functions: `fmi2GetVersionTYPE` is `GetVersion` here.
+macro_rules! functions {
+    ($($function:ident $c:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
+        $(
+            #[doc = concat!("`", $c, "TYPE`.")]
+            pub type $function = unsafe extern "C" fn($($argument),*) $(-> $result)?;
+        )*
+        /// The standard's name of each function and the Rust type that stands for it.
+        pub fn signatures() -> Vec<(&'static str, &'static str)> {
+            vec![$(($c, core::any::type_name::<$function>())),*]
+        }
+    };
+}
+
+functions! {
+    GetTypesPlatform "fmi2GetTypesPlatform" () -> *const c_char;
+    GetVersion "fmi2GetVersion" () -> *const c_char;
+    SetDebugLogging "fmi2SetDebugLogging" (Component, Boolean, usize, *const FmiString) -> Status;
+    Instantiate "fmi2Instantiate" (FmiString, Type, FmiString, FmiString, *const CallbackFunctions, Boolean, Boolean) -> Component;
+    FreeInstance "fmi2FreeInstance" (Component);
+    SetupExperiment "fmi2SetupExperiment" (Component, Boolean, Real, Real, Boolean, Real) -> Status;
+    EnterInitializationMode "fmi2EnterInitializationMode" (Component) -> Status;
+    ExitInitializationMode "fmi2ExitInitializationMode" (Component) -> Status;
+    Terminate "fmi2Terminate" (Component) -> Status;
+    Reset "fmi2Reset" (Component) -> Status;
+    GetReal "fmi2GetReal" (Component, *const ValueReference, usize, *mut Real) -> Status;
+    GetInteger "fmi2GetInteger" (Component, *const ValueReference, usize, *mut Integer) -> Status;
+    GetBoolean "fmi2GetBoolean" (Component, *const ValueReference, usize, *mut Boolean) -> Status;
+    GetString "fmi2GetString" (Component, *const ValueReference, usize, *mut FmiString) -> Status;
+    SetReal "fmi2SetReal" (Component, *const ValueReference, usize, *const Real) -> Status;
+    SetInteger "fmi2SetInteger" (Component, *const ValueReference, usize, *const Integer) -> Status;
+    SetBoolean "fmi2SetBoolean" (Component, *const ValueReference, usize, *const Boolean) -> Status;
+    SetString "fmi2SetString" (Component, *const ValueReference, usize, *const FmiString) -> Status;
+    GetFmuState "fmi2GetFMUstate" (Component, *mut FmuState) -> Status;
+    SetFmuState "fmi2SetFMUstate" (Component, FmuState) -> Status;
+    FreeFmuState "fmi2FreeFMUstate" (Component, *mut FmuState) -> Status;
+    SerializedFmuStateSize "fmi2SerializedFMUstateSize" (Component, FmuState, *mut usize) -> Status;
+    SerializeFmuState "fmi2SerializeFMUstate" (Component, FmuState, *mut Byte, usize) -> Status;
+    DeSerializeFmuState "fmi2DeSerializeFMUstate" (Component, *const Byte, usize, *mut FmuState) -> Status;
+    GetDirectionalDerivative "fmi2GetDirectionalDerivative" (Component, *const ValueReference, usize, *const ValueReference, usize, *const Real, *mut Real) -> Status;
+    SetRealInputDerivatives "fmi2SetRealInputDerivatives" (Component, *const ValueReference, usize, *const Integer, *const Real) -> Status;
+    GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" (Component, *const ValueReference, usize, *const Integer, *mut Real) -> Status;
+    DoStep "fmi2DoStep" (Component, Real, Real, Boolean) -> Status;
+    CancelStep "fmi2CancelStep" (Component) -> Status;
+    GetStatus "fmi2GetStatus" (Component, StatusKind, *mut Status) -> Status;
+    GetRealStatus "fmi2GetRealStatus" (Component, StatusKind, *mut Real) -> Status;
+    GetIntegerStatus "fmi2GetIntegerStatus" (Component, StatusKind, *mut Integer) -> Status;
+    GetBooleanStatus "fmi2GetBooleanStatus" (Component, StatusKind, *mut Boolean) -> Status;
+    GetStringStatus "fmi2GetStringStatus" (Component, StatusKind, *mut FmiString) -> Status;
+}

@@ -1,0 +1,187 @@
+//! Reading and setting variables: a call with several references does all or nothing.
+
+use crate::fmi::failure::{Failure, Outcome};
+use crate::fmi::instance::Instance;
+use crate::fmi::lifecycle::Phase;
+use crate::variables::{Kind, Role, TABLE, Variable};
+
+/// The standard's names of the types of values.
+const REAL: &str = "Real";
+const INTEGER: &str = "Integer or Enumeration";
+const BOOLEAN: &str = "Boolean";
+const STRING: &str = "String";
+
+fn type_of(variable: &Variable) -> &'static str {
+    match variable.kind {
+        Kind::Real(_) => REAL,
+        Kind::Enumeration(..) => INTEGER,
+        Kind::Boolean => BOOLEAN,
+    }
+}
+
+/// The variable behind a value reference, if it is of the type asked for.
+fn variable(reference: u32, asked: &'static str) -> Result<&'static Variable, Failure> {
+    let Some(variable) = TABLE.get(reference as usize) else {
+        return Err(Failure::UnknownReference { reference, last: TABLE.len() - 1 });
+    };
+    let has = type_of(variable);
+    if has == asked {
+        Ok(variable)
+    } else {
+        Err(Failure::WrongType { variable: variable.name, reference, asked, has })
+    }
+}
+
+impl Instance {
+    /// `fmi2GetReal`; `write` gets the position in the array and the value.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`]; [`Failure::Model`] if the model
+    /// cannot be evaluated, [`Failure::NotFinite`]. No value is written then.
+    pub fn get_real(&mut self, references: &[u32], write: impl FnMut(usize, f64)) -> Outcome {
+        self.read(references, REAL, write)
+    }
+
+    /// `fmi2GetInteger`, also for enumerations.
+    ///
+    /// # Errors
+    /// Those of [`Instance::get_real`].
+    pub fn get_integer(
+        &mut self,
+        references: &[u32],
+        mut write: impl FnMut(usize, i32),
+    ) -> Outcome {
+        self.read(references, INTEGER, |i, value| write(i, value as i32))
+    }
+
+    /// `fmi2GetBoolean`.
+    ///
+    /// # Errors
+    /// Those of [`Instance::get_real`].
+    pub fn get_boolean(
+        &mut self,
+        references: &[u32],
+        mut write: impl FnMut(usize, bool),
+    ) -> Outcome {
+        self.read(references, BOOLEAN, |i, value| write(i, value != 0.0))
+    }
+
+    /// `fmi2GetString` and `fmi2SetString`: there are no such variables.
+    ///
+    /// # Errors
+    /// Those of [`Instance::get_real`].
+    pub fn strings(&self, references: &[u32]) -> Outcome {
+        references.iter().try_for_each(|&reference| variable(reference, STRING).map(drop))
+    }
+
+    /// Outputs are computed when read, so they fit inputs set since the last step. The standard
+    /// forbids masters to ask for that in co-simulation; some do, and consistent values harm nobody.
+    fn read(
+        &mut self,
+        references: &[u32],
+        asked: &'static str,
+        mut write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        let mut computed = false;
+        for &reference in references {
+            let role = variable(reference, asked)?.role;
+            computed |= !matches!(role, Role::Input(_) | Role::Parameter);
+        }
+        if computed {
+            self.flight.evaluate()?;
+        }
+        for &reference in references {
+            let variable = variable(reference, asked)?;
+            let value = variable.get(&self.flight);
+            if !value.is_finite() {
+                return Err(Failure::NotFinite { variable: variable.name, value });
+            }
+        }
+        for (i, &reference) in references.iter().enumerate() {
+            write(i, variable(reference, asked)?.get(&self.flight));
+        }
+        Ok(())
+    }
+
+    /// `fmi2SetReal`.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::TooLate`];
+    /// [`Failure::Model`] if a value is refused. No value is set then.
+    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Outcome {
+        self.write(references, REAL, |i| values[i])
+    }
+
+    /// `fmi2SetInteger`, also for enumerations.
+    ///
+    /// # Errors
+    /// Those of [`Instance::set_real`].
+    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Outcome {
+        self.write(references, INTEGER, |i| values[i].into())
+    }
+
+    /// `fmi2SetBoolean`.
+    ///
+    /// # Errors
+    /// Those of [`Instance::set_real`].
+    pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Outcome {
+        self.write(references, BOOLEAN, |i| values[i].into())
+    }
+
+    /// Inputs are accepted before initialisation too: the standard says no, but several masters set
+    /// all start values there.
+    fn write(
+        &mut self,
+        references: &[u32],
+        asked: &'static str,
+        value: impl Fn(usize) -> f64,
+    ) -> Outcome {
+        let before = matches!(self.phase(), Phase::Instantiated | Phase::InitializationMode);
+        for (i, &reference) in references.iter().enumerate() {
+            let variable = variable(reference, asked)?;
+            if variable.role == Role::Parameter && !before {
+                return Err(Failure::TooLate { variable: variable.name, value: value(i) });
+            }
+            variable.check(value(i))?;
+        }
+        for (i, &reference) in references.iter().enumerate() {
+            variable(reference, asked)?.set(&mut self.flight, value(i))?;
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetDirectionalDerivative`: changes of `unknowns` for the changes `seed` of `knowns`.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`].
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        _knowns: &[u32],
+        _seed: &[f64],
+        _write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        provided_for(unknowns, "providesDirectionalDerivative = false")
+    }
+
+    /// `fmi2SetRealInputDerivatives`.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`].
+    pub fn set_input_derivatives(&mut self, inputs: &[u32]) -> Outcome {
+        provided_for(inputs, "canInterpolateInputs = false")
+    }
+
+    /// `fmi2GetRealOutputDerivatives`.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`].
+    pub fn output_derivatives(&mut self, outputs: &[u32]) -> Outcome {
+        provided_for(outputs, "maxOutputDerivativeOrder = 0")
+    }
+}
+
+/// Asking an absent capability for nothing is no error.
+fn provided_for(references: &[u32], capability: &'static str) -> Outcome {
+    if references.is_empty() { Ok(()) } else { Err(Failure::NotProvided { capability }) }
+}

@@ -1,0 +1,158 @@
+//! Reading and checking of the data files: a wrong number is refused with file, key and limit.
+
+use super::{AeroData, EarthData, VehicleData};
+use crate::error::Error;
+use serde::Deserialize;
+
+/// The shares of the tanks are printed with four digits and must add up to one.
+const SHARES_ADD_UP: f64 = 1e-9;
+/// Below, three bending modes have no nodes to live on; above, no one needs it.
+const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
+
+fn parse<T: for<'a> Deserialize<'a>>(file: &str, text: &str) -> Result<T, Error> {
+    toml::from_str(text).map_err(|error| {
+        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
+        Error::Data {
+            file: file.to_string(),
+            key: format!("line {}", before.matches('\n').count() + 1),
+            problem: error.message().to_string(),
+        }
+    })
+}
+
+/// The checks of one file; the first wrong number is reported.
+struct Check<'a> {
+    file: &'a str,
+}
+
+impl Check<'_> {
+    fn that(&self, ok: bool, key: &str, problem: impl FnOnce() -> String) -> Result<(), Error> {
+        if ok {
+            return Ok(());
+        }
+        Err(Error::Data { file: self.file.into(), key: key.into(), problem: problem() })
+    }
+
+    fn positive(&self, key: &str, value: f64) -> Result<(), Error> {
+        self.that(value > 0.0 && value.is_finite(), key, || format!("{value} must be positive"))
+    }
+
+    fn inside(&self, key: &str, value: f64, [min, max]: [f64; 2]) -> Result<(), Error> {
+        self.that(value > min && value < max, key, || {
+            format!("{value} must lie between {min} and {max}")
+        })
+    }
+
+    fn increasing(&self, key: &str, values: &[f64]) -> Result<(), Error> {
+        let finite = values.iter().all(|value| value.is_finite());
+        let ok = finite && !values.is_empty() && values.windows(2).all(|pair| pair[0] < pair[1]);
+        self.that(ok, key, || format!("{values:?} must increase"))
+    }
+}
+
+impl VehicleData {
+    /// Reads and checks a vehicle file; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        let check = Check { file };
+        let length = data.geometry.length_m.value;
+        check.positive("geometry.length_m", length)?;
+        check.inside("geometry.fore_body_m", data.geometry.fore_body_m.value, [0.0, length])?;
+        data.check_mass(&check, length)?;
+        data.check_beam(&check, length)?;
+        data.check_tanks(&check, length)?;
+        check.positive("actuation.delta_e_limit_rad", data.actuation.delta_e_limit_rad.value)?;
+        check.positive("actuation.phi_limit", data.actuation.phi_limit.value)?;
+        Ok(data)
+    }
+
+    fn check_mass(&self, check: &Check, length: f64) -> Result<(), Error> {
+        let mass = &self.mass;
+        check.positive("mass.fore_beam_kg_per_m2", mass.fore_beam_kg_per_m2.value)?;
+        check.positive("mass.aft_beam_kg_per_m2", mass.aft_beam_kg_per_m2.value)?;
+        check.inside("mass.beam_joint_m", mass.beam_joint_m.value, [0.0, length])?;
+        check.inside("mass.propellant_fraction", mass.propellant_fraction.value, [0.0, 1.0])?;
+        check.inside("mass.residual_fraction", mass.residual_fraction.value, [0.0, 1.0])
+    }
+
+    fn check_beam(&self, check: &Check, length: f64) -> Result<(), Error> {
+        let elements = self.beam.elements.value;
+        check.that(ELEMENTS.contains(&elements), "beam.elements", || {
+            format!("{elements} must lie in {ELEMENTS:?}")
+        })?;
+        let stations = &self.beam.stiffness_station_m.value;
+        let stiffness = &self.beam.stiffness_n_m2_per_m.value;
+        check.increasing("beam.stiffness_station_m", stations)?;
+        let ends = [stations[0], stations[stations.len() - 1]];
+        check.that(ends == [0.0, length], "beam.stiffness_station_m", || {
+            format!("the stations run from {} to {}, must run from 0 to {length}", ends[0], ends[1])
+        })?;
+        check.that(stiffness.len() == stations.len(), "beam.stiffness_n_m2_per_m", || {
+            format!("{} values for {} stations", stiffness.len(), stations.len())
+        })?;
+        stiffness.iter().try_for_each(|&ei| check.positive("beam.stiffness_n_m2_per_m", ei))
+    }
+
+    fn check_tanks(&self, check: &Check, length: f64) -> Result<(), Error> {
+        for tank in &self.tank {
+            let key = |field: &str| format!("tank.{}.{field}", tank.name);
+            check.positive(&key("length_m"), tank.length_m.value)?;
+            check.positive(&key("share"), tank.share.value)?;
+            check.positive(&key("bay_length_m"), tank.bay_length_m.value)?;
+            check.positive(&key("depth_full_m"), tank.depth_full_m.value)?;
+            let half = 0.5 * tank.length_m.value;
+            let [from, to] = [tank.centre_m.value - half, tank.centre_m.value + half];
+            check.that(from >= 0.0 && to <= length, &key("centre_m"), || {
+                format!("the tank from {from} m to {to} m must lie between 0 and {length} m")
+            })?;
+        }
+        let total: f64 = self.tank.iter().map(|tank| tank.share.value).sum();
+        check.that((total - 1.0).abs() < SHARES_ADD_UP, "tank.share", || {
+            format!("the shares add up to {total}, must add up to 1")
+        })
+    }
+}
+
+impl EarthData {
+    /// Reads and checks the earth and atmosphere data; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        let check = Check { file };
+        check.increasing("air.layer_base_m", &data.air.layer_base_m.value)?;
+        let [bases, lapses] = [&data.air.layer_base_m, &data.air.layer_lapse_k_per_m];
+        check.that(bases.value.len() == lapses.value.len(), "air.layer_lapse_k_per_m", || {
+            format!("{} values for {} layers", lapses.value.len(), bases.value.len())
+        })?;
+        check.positive("earth.gravity_m_per_s2", data.earth.gravity_m_per_s2.value)?;
+        check.positive("earth.radius_m", data.earth.radius_m.value)?;
+        Ok(data)
+    }
+}
+
+impl AeroData {
+    /// Reads and checks a coefficient set; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let data: Self = parse(file, text)?;
+        let check = Check { file };
+        check.increasing("envelope.alpha_rad", &data.envelope.alpha_rad.value)?;
+        check.increasing("envelope.mach", &data.envelope.mach.value)?;
+        check.increasing("envelope.altitude_m", &data.envelope.altitude_m.value)?;
+        check.positive("reference.area_m2_per_m", data.reference.area_m2_per_m.value)?;
+        check.positive("reference.chord_m", data.reference.chord_m.value)?;
+        check.positive("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value)?;
+        // The elastic terms are derived from loads that are quadratic in the incidence.
+        for (key, fit) in [("lift.alpha3", &data.lift), ("moment.alpha3", &data.moment)] {
+            check.that(fit.alpha3.is_none(), key, || "lift and moment must be quadratic".into())?;
+        }
+        Ok(data)
+    }
+}

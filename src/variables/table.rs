@@ -1,0 +1,289 @@
+//! The rows, and the words in which they are said.
+
+use super::{Dependencies, Kind, Role, Unit, Variable};
+use crate::dynamics::{RIGID, STATES};
+use crate::flight::{Flight, Sample};
+use crate::parameters::InputMode;
+use crate::vehicle::{AeroSet, Configuration};
+
+const fn unit(name: &'static str, base: [i32; 4]) -> Unit {
+    Unit { name, base, display: None }
+}
+
+/// Degrees per radian.
+const DEGREES: f64 = 180.0 / core::f64::consts::PI;
+
+const ONE: Unit = unit("1", [0, 0, 0, 0]);
+const METRE: Unit = unit("m", [0, 1, 0, 0]);
+const SPEED: Unit = unit("m/s", [0, 1, -1, 0]);
+const ACCELERATION: Unit = unit("m/s2", [0, 1, -2, 0]);
+const ANGLE: Unit = Unit { name: "rad", base: [0, 0, 0, 1], display: Some(("deg", DEGREES)) };
+const ANGULAR_RATE: Unit =
+    Unit { name: "rad/s", base: [0, 0, -1, 1], display: Some(("deg/s", DEGREES)) };
+const ANGULAR_ACCELERATION: Unit = unit("rad/s2", [0, 0, -2, 1]);
+/// Frequencies share the dimension of an angular rate but are not shown in degrees.
+const FREQUENCY: Unit = unit("rad/s", [0, 0, -1, 1]);
+const FORCE_PER_WIDTH: Unit = unit("N/m", [1, 0, -2, 0]);
+const MOMENT_PER_WIDTH: Unit = unit("N", [1, 1, -2, 0]);
+const PRESSURE: Unit = unit("Pa", [1, -1, -2, 0]);
+
+const NONE: Dependencies = Dependencies { dependent: 0, fixed: 0, constant: 0 };
+
+const fn dependent(mask: u32) -> Dependencies {
+    Dependencies { dependent: mask, ..NONE }
+}
+
+const fn constant(mask: u32) -> Dependencies {
+    Dependencies { constant: mask, ..NONE }
+}
+
+const V: u32 = 1 << 0;
+const H: u32 = 1 << 1;
+const GAMMA: u32 = 1 << 2;
+const ALPHA: u32 = 1 << 3;
+const Q: u32 = 1 << 4;
+const DELTA_E: u32 = 1 << STATES;
+const PHI: u32 = 1 << (STATES + 1);
+const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
+const RATES: u32 = ETAS << 1;
+const ELASTIC: u32 = ETAS | RATES;
+/// What the aerodynamic forces depend on.
+const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E;
+
+const ROW: Variable = Variable {
+    name: "",
+    description: "",
+    kind: Kind::Real(ONE),
+    role: Role::Output,
+    range: None,
+    dependencies: NONE,
+    get: |_| 0.0,
+    set: None,
+};
+
+const fn input(
+    index: usize,
+    name: &'static str,
+    unit: Unit,
+    description: &'static str,
+    get: fn(&Flight) -> f64,
+    set: fn(&mut Flight, f64),
+) -> Variable {
+    Variable {
+        name,
+        description,
+        kind: Kind::Real(unit),
+        role: Role::Input(index),
+        get,
+        set: Some(set),
+        ..ROW
+    }
+}
+
+const fn output(
+    name: &'static str,
+    unit: Unit,
+    description: &'static str,
+    dependencies: Dependencies,
+    get: fn(&Flight) -> f64,
+) -> Variable {
+    Variable { name, description, kind: Kind::Real(unit), dependencies, get, ..ROW }
+}
+
+const fn output_state(
+    index: usize,
+    name: &'static str,
+    unit: Unit,
+    description: &'static str,
+    get: fn(&Flight) -> f64,
+) -> Variable {
+    let dependencies = constant(1 << index);
+    let kind = Kind::Real(unit);
+    Variable { name, description, kind, role: Role::OutputState(index), dependencies, get, ..ROW }
+}
+
+const fn local_state(
+    index: usize,
+    name: &'static str,
+    unit: Unit,
+    description: &'static str,
+    get: fn(&Flight) -> f64,
+) -> Variable {
+    let kind = Kind::Real(unit);
+    Variable { name, description, kind, role: Role::LocalState(index), get, ..ROW }
+}
+
+const fn derivative(
+    index: usize,
+    name: &'static str,
+    unit: Unit,
+    dependencies: Dependencies,
+    get: fn(&Flight) -> f64,
+) -> Variable {
+    Variable {
+        name,
+        description: "Time derivative of the state",
+        kind: Kind::Real(unit),
+        role: Role::Derivative(index),
+        dependencies,
+        get,
+        ..ROW
+    }
+}
+
+const fn parameter(
+    name: &'static str,
+    kind: Kind,
+    range: Option<[f64; 2]>,
+    description: &'static str,
+    get: fn(&Flight) -> f64,
+    set: fn(&mut Flight, f64),
+) -> Variable {
+    Variable { name, description, kind, role: Role::Parameter, range, get, set: Some(set), ..ROW }
+}
+
+const fn calculated(
+    name: &'static str,
+    unit: Unit,
+    description: &'static str,
+    get: fn(&Flight) -> f64,
+) -> Variable {
+    Variable { name, description, kind: Kind::Real(unit), role: Role::Calculated, get, ..ROW }
+}
+
+fn shown(flight: &Flight, read: impl FnOnce(&Sample) -> f64) -> f64 {
+    flight.sample().map_or(0.0, read)
+}
+
+fn omega(flight: &Flight, mode: usize) -> f64 {
+    flight.vehicle().map_or(0.0, |vehicle| vehicle.omega[mode])
+}
+
+const CONFIGURATION: Kind = Kind::Enumeration(
+    "Configuration",
+    &[
+        ("Rigid", 1, "Rigid body, 5 states"),
+        ("EvenMassBeam", 2, "Flexible beam, mass spread evenly, 11 states"),
+        ("SloshBeam", 3, "Flexible beam with sloshing propellant, 15 states"),
+    ],
+);
+const AERO: Kind = Kind::Enumeration(
+    "Aero",
+    &[("parker2007", 2, "Published rigid-body fits, derived elastic terms")],
+);
+const INPUT_MODE: Kind = Kind::Enumeration(
+    "InputMode",
+    &[
+        ("DeviationFromTrim", 1, "Inputs are added to the trim controls"),
+        ("Absolute", 2, "Inputs are the controls themselves"),
+    ],
+);
+
+/// All variables.
+#[rustfmt::skip]
+pub static TABLE: [Variable; 67] = [
+    input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs()[0], |f, v| f.set_input(0, v)),
+    input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs()[1], |f, v| f.set_input(1, v)),
+    output_state(0, "V", SPEED, "Airspeed", |f| f.state()[0]),
+    output_state(2, "gamma", ANGLE, "Flight-path angle", |f| f.state()[2]),
+    output_state(5, "eta1", METRE, "First flexible mode, as nose deflection, up positive", |f| f.state()[5]),
+    output_state(7, "eta2", METRE, "Second flexible mode, as nose deflection, up positive", |f| f.state()[7]),
+    output_state(9, "eta3", METRE, "Third flexible mode, as nose deflection, up positive", |f| f.state()[9]),
+    output_state(1, "h", METRE, "Altitude", |f| f.state()[1]),
+    output_state(3, "alpha", ANGLE, "Angle of attack", |f| f.state()[3]),
+    output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
+    output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
+    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[0])),
+    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[1])),
+    output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
+    output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
+    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
+    output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC | PHI), |f| shown(f, |s| s.outputs.loads.moment)),
+    output("mach", ONE, "Mach number", dependent(V | H), |f| shown(f, |s| s.outputs.loads.mach)),
+    output("qbar", PRESSURE, "Dynamic pressure", dependent(V | H), |f| shown(f, |s| s.outputs.loads.qbar)),
+    output("n_z", ONE, "Normal load factor at the mass centre, in g", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.n_z)),
+    output("delta_e_effective", ANGLE, "Elevator deflection in effect, absolute, after saturation", dependent(DELTA_E), |f| shown(f, |s| s.control[0])),
+    output("phi_effective", ONE, "Fuel equivalence ratio in effect, absolute, after saturation", dependent(PHI), |f| shown(f, |s| s.control[1])),
+    parameter("configuration", CONFIGURATION, None, "Which parts of the vehicle can move", |f| f.parameters().build.configuration as i32 as f64, |f, v| f.change(|p| p.build.configuration = match v as i32 { 1 => Configuration::Rigid, 2 => Configuration::EvenMassBeam, _ => Configuration::SloshBeam })),
+    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, _| f.change(|p| p.build.aero = AeroSet::Parker2007)),
+    parameter("fuel_fraction", Kind::Real(ONE), Some([0.0, 1.0]), "Propellant left", |f| f.parameters().build.fuel_fraction, |f, v| f.change(|p| p.build.fuel_fraction = v)),
+    parameter("slosh_damping", Kind::Real(ONE), Some([0.0, 1.0]), "Damping ratio of the sloshing masses", |f| f.parameters().build.slosh_damping, |f, v| f.change(|p| p.build.slosh_damping = v)),
+    parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
+    parameter("mach0", Kind::Real(ONE), Some([0.1, 30.0]), "Initial Mach number", |f| f.parameters().build.condition.mach, |f, v| f.change(|p| p.build.condition.mach = v)),
+    parameter("altitude0", Kind::Real(METRE), Some([0.0, 85000.0]), "Initial altitude", |f| f.parameters().build.condition.altitude, |f, v| f.change(|p| p.build.condition.altitude = v)),
+    parameter("gamma0", Kind::Real(ANGLE), Some([-1.5, 1.5]), "Initial flight-path angle", |f| f.parameters().build.condition.gamma, |f, v| f.change(|p| p.build.condition.gamma = v)),
+    parameter("trim", Kind::Boolean, None, "Start in trimmed flight; false starts from alpha0, q0, eta10, eta20, eta30 with absolute inputs", |f| f64::from(f.parameters().trim), |f, v| f.change(|p| p.trim = v != 0.0)),
+    parameter("alpha0", Kind::Real(ANGLE), Some([-1.5, 1.5]), "Initial angle of attack, used if trim is false", |f| f.parameters().alpha0, |f, v| f.change(|p| p.alpha0 = v)),
+    parameter("q0", Kind::Real(ANGULAR_RATE), Some([-10.0, 10.0]), "Initial pitch rate, used if trim is false", |f| f.parameters().q0, |f, v| f.change(|p| p.q0 = v)),
+    parameter("eta10", Kind::Real(METRE), Some([-5.0, 5.0]), "Initial eta1, used if trim is false", |f| f.parameters().eta0[0], |f, v| f.change(|p| p.eta0[0] = v)),
+    parameter("eta20", Kind::Real(METRE), Some([-5.0, 5.0]), "Initial eta2, used if trim is false", |f| f.parameters().eta0[1], |f, v| f.change(|p| p.eta0[1] = v)),
+    parameter("eta30", Kind::Real(METRE), Some([-5.0, 5.0]), "Initial eta3, used if trim is false", |f| f.parameters().eta0[2], |f, v| f.change(|p| p.eta0[2] = v)),
+    parameter("input_mode", INPUT_MODE, None, "Meaning of delta_e and phi; always Absolute if trim is false", |f| f.parameters().input_mode as i32 as f64, |f, v| f.change(|p| p.input_mode = if v as i32 == 1 { InputMode::DeviationFromTrim } else { InputMode::Absolute })),
+    calculated("alpha_trim", ANGLE, "Angle of attack in trimmed flight", |f| f.trim().map_or(0.0, |t| t.state[3])),
+    calculated("delta_e_trim", ANGLE, "Elevator deflection in trimmed flight", |f| f.trim().map_or(0.0, |t| t.control[0])),
+    calculated("phi_trim", ONE, "Fuel equivalence ratio in trimmed flight", |f| f.trim().map_or(0.0, |t| t.control[1])),
+    calculated("omega1", FREQUENCY, "Frequency of the first flexible mode", |f| omega(f, 0)),
+    calculated("omega2", FREQUENCY, "Frequency of the second flexible mode", |f| omega(f, 1)),
+    calculated("omega3", FREQUENCY, "Frequency of the third flexible mode", |f| omega(f, 2)),
+    calculated("omega_slosh1", FREQUENCY, "Frequency of the first slosh mode", |f| omega(f, 3)),
+    calculated("omega_slosh2", FREQUENCY, "Frequency of the second slosh mode", |f| omega(f, 4)),
+    local_state(6, "eta1_dot", SPEED, "Rate of the first flexible mode", |f| f.state()[6]),
+    local_state(8, "eta2_dot", SPEED, "Rate of the second flexible mode", |f| f.state()[8]),
+    local_state(10, "eta3_dot", SPEED, "Rate of the third flexible mode", |f| f.state()[10]),
+    local_state(11, "eta_slosh1", METRE, "First slosh mode, as the larger displacement of a sloshing mass", |f| f.state()[11]),
+    local_state(12, "eta_slosh1_dot", SPEED, "Rate of the first slosh mode", |f| f.state()[12]),
+    local_state(13, "eta_slosh2", METRE, "Second slosh mode, as the larger displacement of a sloshing mass", |f| f.state()[13]),
+    local_state(14, "eta_slosh2_dot", SPEED, "Rate of the second slosh mode", |f| f.state()[14]),
+    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 0)),
+    derivative(1, "der(h)", SPEED, dependent(V | GAMMA), |f| rate(f, 1)),
+    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 2)),
+    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
+    derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
+    derivative(5, "der(eta1)", SPEED, constant(1 << 6), |f| rate(f, 5)),
+    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
+    derivative(7, "der(eta2)", SPEED, constant(1 << 8), |f| rate(f, 7)),
+    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
+    derivative(9, "der(eta3)", SPEED, constant(1 << 10), |f| rate(f, 9)),
+    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
+    derivative(11, "der(eta_slosh1)", SPEED, constant(1 << 12), |f| rate(f, 11)),
+    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
+    derivative(13, "der(eta_slosh2)", SPEED, constant(1 << 14), |f| rate(f, 13)),
+    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
+];
+
+fn rate(flight: &Flight, state: usize) -> f64 {
+    shown(flight, |sample| sample.derivatives[state])
+}
+
+const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    if a.len() != b.len() {
+        return false;
+    }
+    let mut i = 0;
+    while i < a.len() {
+        if a[i] != b[i] {
+            return false;
+        }
+        i += 1;
+    }
+    true
+}
+
+const fn names_are_distinct() -> bool {
+    let mut i = 0;
+    while i < TABLE.len() {
+        let mut k = i + 1;
+        while k < TABLE.len() {
+            if same(TABLE[i].name, TABLE[k].name) {
+                return false;
+            }
+            k += 1;
+        }
+        i += 1;
+    }
+    true
+}
+
+const _: () = assert!(names_are_distinct(), "two variables have the same name");
+const _: () = assert!(RIGID == 5, "the masks above number the states");

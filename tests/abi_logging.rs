@@ -1,0 +1,166 @@
+//! What reaches the master's logger, and how.
+
+#![allow(unsafe_code)]
+
+mod common;
+
+use ahv::fmi::log::CATEGORIES;
+use ahv::fmi::sys::{self, CallbackFunctions, FmiString, Status, Type};
+use ahv::variables::guid;
+use common::{Api, Sink, Slave, callbacks};
+use std::ffi::{CString, c_void};
+use std::ptr::null;
+
+fn switch(slave: &Slave, on: bool, categories: &[&str]) -> Status {
+    let names: Vec<_> = categories.iter().map(|&name| CString::new(name).unwrap()).collect();
+    let pointers: Vec<_> = names.iter().map(|name| name.as_ptr()).collect();
+    // SAFETY: an array of C strings of the length given.
+    unsafe { (slave.api.set_debug_logging)(slave.c, on.into(), pointers.len(), pointers.as_ptr()) }
+}
+
+#[test]
+fn errors_are_logged_always_and_other_categories_only_if_enabled() {
+    let api = Api::load();
+    let events = |slave: &Slave| {
+        slave.start();
+        !slave.log().is_empty()
+    };
+    assert!(!events(&Slave::new(&api)), "debug logging is off");
+    assert!(events(&Slave::with_logging(&api, true)));
+
+    let slave = Slave::new(&api);
+    assert_eq!(switch(&slave, true, &["logEvents"]), Status::Ok);
+    assert!(events(&slave));
+    slave.leave_envelope();
+    assert!(slave.log().is_empty(), "logStatusDiscard was not enabled");
+    assert_eq!(slave.reset(), Status::Ok);
+    assert!(!events(&slave), "a reset goes back to the logging of fmi2Instantiate");
+    assert_eq!(slave.reset(), Status::Ok);
+
+    assert_eq!(switch(&slave, true, &[]), Status::Ok);
+    assert_eq!(switch(&slave, false, &["logEvents"]), Status::Ok);
+    assert!(!events(&slave));
+    slave.leave_envelope();
+    assert_eq!(slave.message().category, "logStatusDiscard");
+    assert_eq!(switch(&slave, false, &[]), Status::Ok);
+    assert_eq!(slave.step(0.0, 0.1), Status::Error);
+    assert_eq!(slave.message().category, "logStatusError");
+}
+
+#[test]
+fn an_unknown_category_is_refused_switches_nothing_and_is_escaped_for_printf() {
+    let api = Api::load();
+    let slave = Slave::new(&api);
+    assert_eq!(switch(&slave, true, &["logEvents", "100%s #r1#"]), Status::Error);
+    let record = slave.message();
+    assert!(record.message.contains("\"100%%s ##r1##\""), "{}", record.message);
+    assert!(record.message.contains("logEvents, logStatusDiscard"), "{}", record.message);
+    slave.start();
+    assert!(slave.log().is_empty());
+}
+
+#[test]
+fn every_message_has_the_instance_name_a_declared_category_and_the_status_returned() {
+    let api = Api::load();
+    let slave = Slave::with_logging(&api, true);
+    slave.start();
+    assert_eq!(slave.set("V", 1.0), Status::Error);
+    slave.leave_envelope();
+    let log = slave.log();
+    let statuses: Vec<_> = log.iter().map(|record| record.status).collect();
+    assert!(statuses.contains(&Status::Ok) && statuses.contains(&Status::Error));
+    assert_eq!(statuses.last(), Some(&Status::Discard));
+    for record in log {
+        assert_eq!(record.name, "one");
+        let declared = |category: &ahv::fmi::log::Category| {
+            category.name().to_str() == Ok(record.category.as_str())
+        };
+        assert!(CATEGORIES.iter().any(declared), "{record:?}");
+        assert!(
+            !record.message.ends_with('\n') && record.message.starts_with("fmi2"),
+            "{record:?}"
+        );
+    }
+}
+
+#[test]
+fn the_callbacks_are_copied_and_a_null_logger_is_fine() {
+    let api = Api::load();
+    let (sink, guid) = (Sink::default(), CString::new(guid()).unwrap());
+    for logger in [None, Some(common::recorder())] {
+        let functions = Box::new(CallbackFunctions { logger, ..callbacks(&sink) });
+        let name = CString::new("short-lived").unwrap();
+        // SAFETY: valid arguments; a live instance, freed once.
+        unsafe {
+            let kind = Type::CO_SIMULATION;
+            let c =
+                (api.instantiate)(name.as_ptr(), kind, guid.as_ptr(), null(), &*functions, 0, 1);
+            drop((functions, name));
+            assert_eq!((api.do_step)(c, 0.0, 0.1, 0), Status::Error);
+            (api.free_instance)(c);
+        }
+    }
+    let log = sink.lock().unwrap();
+    assert_eq!(log.len(), 1);
+    assert_eq!(log[0].name, "short-lived");
+}
+
+/// A master whose logger asks the FMU for something.
+struct Curious {
+    api: Api,
+    c: sys::Component,
+    heard: u32,
+}
+
+unsafe extern "C" fn ask(
+    environment: *mut c_void,
+    _: FmiString,
+    _: Status,
+    _: FmiString,
+    _: FmiString,
+) {
+    // SAFETY: the environment is the struct below, used by this thread only.
+    unsafe {
+        let master = environment.cast::<Curious>();
+        (*master).heard += 1;
+        let mut value = 0.0;
+        let (get, c) = ((*master).api.get_real, (*master).c);
+        if (*master).heard < 3 {
+            assert_eq!(
+                get(c, &0, 1, &mut value),
+                Status::Error,
+                "not allowed before initialisation"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_logger_may_call_the_instance_that_is_logging() {
+    let mut master = Curious { api: Api::load(), c: std::ptr::null_mut(), heard: 0 };
+    let guid = CString::new(guid()).unwrap();
+    // SAFETY: valid arguments; a live instance, freed once. Without variable arguments a variadic
+    // function is called like any other.
+    unsafe {
+        let environment = (&raw mut master).cast();
+        let logger = std::mem::transmute::<
+            unsafe extern "C" fn(*mut c_void, FmiString, Status, FmiString, FmiString),
+            sys::CallbackLogger,
+        >(ask);
+        let functions = CallbackFunctions {
+            logger: Some(logger),
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            environment,
+        };
+        let master = environment.cast::<Curious>();
+        let instantiate = (*master).api.instantiate;
+        let kind = Type::CO_SIMULATION;
+        (*master).c = instantiate(c"x".as_ptr(), kind, guid.as_ptr(), null(), &functions, 0, 0);
+        let (step, c) = ((*master).api.do_step, (*master).c);
+        assert_eq!(step(c, 0.0, 0.1, 0), Status::Error);
+        assert_eq!((*master).heard, 3);
+        ((*master).api.free_instance)(c);
+    }
+}

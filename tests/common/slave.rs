@@ -1,0 +1,249 @@
+//! An instance with a recording logger.
+
+use super::{Api, Record, Sink, callbacks};
+use ahv::fmi::sys::{self, Status, StatusKind};
+use ahv::variables::{Kind, TABLE, guid};
+use std::ffi::CString;
+use std::ptr::{null, null_mut};
+
+/// Value reference of a variable.
+pub fn reference(name: &str) -> u32 {
+    TABLE.iter().position(|variable| variable.name == name).expect(name) as u32
+}
+
+/// An instance.
+pub struct Slave<'a> {
+    pub api: &'a Api,
+    pub c: sys::Component,
+    sink: Box<Sink>,
+}
+
+impl Drop for Slave<'_> {
+    fn drop(&mut self) {
+        // SAFETY: a live instance, freed once.
+        unsafe { (self.api.free_instance)(self.c) }
+    }
+}
+
+// SAFETY of all calls below: the instance lives, and the arrays have the lengths given.
+impl<'a> Slave<'a> {
+    pub fn new(api: &'a Api) -> Self {
+        Self::with_logging(api, false)
+    }
+
+    pub fn with_logging(api: &'a Api, on: bool) -> Self {
+        let sink = Box::new(Sink::default());
+        let guid = CString::new(guid()).unwrap();
+        let functions = callbacks(&sink);
+        let kind = sys::Type::CO_SIMULATION;
+        let c = unsafe {
+            (api.instantiate)(
+                c"one".as_ptr(),
+                kind,
+                guid.as_ptr(),
+                null(),
+                &functions,
+                0,
+                on.into(),
+            )
+        };
+        assert!(!c.is_null());
+        Self { api, c, sink }
+    }
+
+    /// A rigid vehicle, ready for its first step.
+    pub fn flying(api: &'a Api) -> Self {
+        Self::flying_as(api, 1)
+    }
+
+    /// A vehicle of this configuration, ready for its first step.
+    pub fn flying_as(api: &'a Api, configuration: i32) -> Self {
+        let slave = Self::new(api);
+        slave.start_as(configuration);
+        slave
+    }
+
+    /// From just instantiated to ready for the first step, with a rigid vehicle.
+    pub fn start(&self) {
+        self.start_as(1);
+    }
+
+    /// From just instantiated to ready for the first step.
+    pub fn start_as(&self, configuration: i32) {
+        assert_eq!(self.set_integer("configuration", configuration), Status::Ok);
+        assert_eq!(self.setup(), Status::Ok);
+        assert_eq!(self.enter(), Status::Ok);
+        assert_eq!(self.exit(), Status::Ok);
+    }
+
+    /// What was logged since the last call.
+    pub fn log(&self) -> Vec<Record> {
+        std::mem::take(&mut *self.sink.lock().unwrap())
+    }
+
+    /// The only message since the last call.
+    pub fn message(&self) -> Record {
+        let log = self.log();
+        assert_eq!(log.len(), 1, "{log:?}");
+        log[0].clone()
+    }
+
+    pub fn setup(&self) -> Status {
+        self.setup_with(None, 0.0, None)
+    }
+
+    pub fn setup_with(&self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Status {
+        let (defined, tolerance) = (tolerance.is_some().into(), tolerance.unwrap_or(f64::NAN));
+        let (stops, stop) = (stop.is_some().into(), stop.unwrap_or(f64::NAN));
+        unsafe { (self.api.setup_experiment)(self.c, defined, tolerance, start, stops, stop) }
+    }
+
+    pub fn enter(&self) -> Status {
+        unsafe { (self.api.enter_initialization_mode)(self.c) }
+    }
+
+    pub fn exit(&self) -> Status {
+        unsafe { (self.api.exit_initialization_mode)(self.c) }
+    }
+
+    pub fn terminate(&self) -> Status {
+        unsafe { (self.api.terminate)(self.c) }
+    }
+
+    pub fn reset(&self) -> Status {
+        unsafe { (self.api.reset)(self.c) }
+    }
+
+    pub fn step(&self, point: f64, step: f64) -> Status {
+        unsafe { (self.api.do_step)(self.c, point, step, 0) }
+    }
+
+    pub fn set(&self, name: &str, value: f64) -> Status {
+        self.set_reals(&[reference(name)], &[value])
+    }
+
+    pub fn set_reals(&self, references: &[u32], values: &[f64]) -> Status {
+        assert_eq!(references.len(), values.len());
+        unsafe { (self.api.set_real)(self.c, references.as_ptr(), values.len(), values.as_ptr()) }
+    }
+
+    pub fn set_integer(&self, name: &str, value: i32) -> Status {
+        unsafe { (self.api.set_integer)(self.c, &reference(name), 1, &value) }
+    }
+
+    pub fn set_boolean(&self, name: &str, value: i32) -> Status {
+        unsafe { (self.api.set_boolean)(self.c, &reference(name), 1, &value) }
+    }
+
+    /// Status and values; what was not written is NaN.
+    pub fn reals(&self, references: &[u32]) -> (Status, Vec<f64>) {
+        let mut values = vec![f64::NAN; references.len()];
+        let (from, to) = (references.as_ptr(), values.as_mut_ptr());
+        let status = unsafe { (self.api.get_real)(self.c, from, references.len(), to) };
+        (status, values)
+    }
+
+    pub fn get(&self, name: &str) -> f64 {
+        let (status, values) = self.reals(&[reference(name)]);
+        assert_eq!(status, Status::Ok, "{name}");
+        values[0]
+    }
+
+    /// Bits of all variables of type Real.
+    pub fn bits(&self) -> Vec<u64> {
+        let (status, values) = self.reals(&all_reals());
+        assert_eq!(status, Status::Ok, "{:?}", self.log());
+        assert!(values.iter().all(|value| value.is_finite()));
+        values.into_iter().map(f64::to_bits).collect()
+    }
+
+    pub fn last_successful_time(&self) -> f64 {
+        let (mut value, kind) = (f64::NAN, StatusKind::LAST_SUCCESSFUL_TIME);
+        let status = unsafe { (self.api.get_real_status)(self.c, kind, &mut value) };
+        assert_eq!(status, Status::Ok);
+        value
+    }
+
+    pub fn wants_to_end(&self) -> bool {
+        let (mut value, kind) = (-1, StatusKind::TERMINATED);
+        let status = unsafe { (self.api.get_boolean_status)(self.c, kind, &mut value) };
+        assert_eq!(status, Status::Ok);
+        value == sys::TRUE
+    }
+
+    pub fn save(&self) -> sys::FmuState {
+        let mut state = null_mut();
+        assert_eq!(unsafe { (self.api.get_state)(self.c, &mut state) }, Status::Ok);
+        state
+    }
+
+    pub fn load(&self, state: sys::FmuState) -> Status {
+        unsafe { (self.api.set_state)(self.c, state) }
+    }
+
+    pub fn free(&self, mut state: sys::FmuState) {
+        assert_eq!(unsafe { (self.api.free_state)(self.c, &mut state) }, Status::Ok);
+        assert!(state.is_null());
+    }
+
+    pub fn bytes(&self, state: sys::FmuState) -> Vec<u8> {
+        let mut size = 0;
+        assert_eq!(unsafe { (self.api.state_size)(self.c, state, &mut size) }, Status::Ok);
+        let mut bytes = vec![0_u8; size];
+        let to = bytes.as_mut_ptr().cast();
+        assert_eq!(unsafe { (self.api.serialize)(self.c, state, to, size) }, Status::Ok);
+        bytes
+    }
+
+    pub fn state_of(&self, bytes: &[u8]) -> (Status, sys::FmuState) {
+        let mut state = null_mut();
+        let from = bytes.as_ptr().cast();
+        let status = unsafe { (self.api.deserialize)(self.c, from, bytes.len(), &mut state) };
+        (status, state)
+    }
+
+    /// Flies with full elevator until a step ends early; the communication point of that step.
+    pub fn leave_envelope(&self) -> f64 {
+        assert_eq!(self.set("delta_e", 0.2), Status::Ok);
+        let step = 0.0625;
+        for i in 0..200 {
+            let point = f64::from(i) * step;
+            match self.step(point, step) {
+                Status::Ok => {}
+                Status::Discard => return point,
+                other => panic!("{other:?} {:?}", self.log()),
+            }
+        }
+        panic!("full elevator for 12.5 s and still inside the envelope");
+    }
+}
+
+/// Value references of all variables of type Real.
+pub fn all_reals() -> Vec<u32> {
+    (0..TABLE.len() as u32).filter(|&i| matches!(TABLE[i as usize].kind, Kind::Real(_))).collect()
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): the same sequence everywhere.
+pub struct Random(pub u64);
+
+impl Random {
+    pub fn below(&mut self, limit: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)) % limit
+    }
+
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+        from[self.below(from.len() as u64) as usize]
+    }
+}
+
+/// Numbers of all items of the enumeration `configuration`.
+pub fn configurations() -> Vec<i32> {
+    match TABLE[reference("configuration") as usize].kind {
+        Kind::Enumeration(_, items) => items.iter().map(|&(_, number, _)| number).collect(),
+        _ => panic!("configuration is no enumeration"),
+    }
+}

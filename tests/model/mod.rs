@@ -1,0 +1,44 @@
+//! Shared by the integration tests.
+#![allow(dead_code, missing_docs)]
+
+use ahv::dynamics::Vehicle;
+use ahv::flight::Flight;
+use ahv::parameters::Parameters;
+use ahv::vehicle::{Build, Configuration, Data};
+
+pub const CONFIGURATIONS: [Configuration; 3] =
+    [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+
+pub fn data() -> Data {
+    Data::embedded().expect("the embedded data are valid")
+}
+
+/// The default build of a configuration.
+pub fn build(configuration: Configuration) -> Build {
+    Build { configuration, ..Parameters::new(&data()).build }
+}
+
+pub fn vehicle(configuration: Configuration) -> Vehicle {
+    Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+}
+
+/// A trimmed default flight.
+pub fn flight(configuration: Configuration) -> Flight {
+    let mut flight = Flight::new().expect("the embedded data are valid");
+    flight.change(|p| p.build.configuration = configuration);
+    flight.initialise().expect("the default flight has a trim");
+    flight
+}
+
+/// |a - b| relative to the larger of |b| and `floor`.
+pub fn deviation(a: f64, b: f64, floor: f64) -> f64 {
+    (a - b).abs() / b.abs().max(floor)
+}
+
+pub fn assert_close(what: &str, got: f64, expected: f64, tolerance: f64) {
+    let deviation = deviation(got, expected, f64::MIN_POSITIVE);
+    assert!(
+        deviation <= tolerance,
+        "{what}: {got} against {expected}, off by {deviation:.2e} (limit {tolerance:.0e})"
+    );
+}

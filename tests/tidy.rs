@@ -1,0 +1,99 @@
+//! The house rules that a compiler cannot hold.
+#![allow(missing_docs)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                found.push((path, text));
+            }
+        }
+    }
+    assert!(found.len() > 5, "{folder} has sources");
+    found
+}
+
+fn in_boundary(path: &Path) -> bool {
+    path.components().any(|part| part.as_os_str() == "fmi")
+}
+
+/// Code without comments.
+fn code(text: &str) -> String {
+    text.lines().map(|line| line.split("//").next().unwrap_or("")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn tidy_physics_never_mentions_fmi() {
+    for (path, text) in sources("src") {
+        if !in_boundary(&path) {
+            assert!(!text.contains("fmi2"), "{}", path.display());
+            let uses = code(&text).replace("pub mod fmi;", "");
+            assert!(!uses.contains("fmi::"), "{} uses the boundary", path.display());
+        }
+    }
+}
+
+#[test]
+fn tidy_unsafe_code_stays_at_the_boundary() {
+    for (path, text) in sources("src") {
+        let unsafe_code = code(&text).contains("unsafe ") || text.contains("allow(unsafe_code)");
+        assert!(!unsafe_code || in_boundary(&path), "{}", path.display());
+    }
+}
+
+#[test]
+fn tidy_the_library_has_no_clock_no_threads_and_prints_nothing() {
+    for (path, text) in sources("src") {
+        for forbidden in [
+            "println!",
+            "print!(",
+            "dbg!",
+            "std::time",
+            "std::thread",
+            "thread_local!",
+            "static mut",
+        ] {
+            assert!(!code(&text).contains(forbidden), "{}: {forbidden}", path.display());
+        }
+    }
+}
+
+#[test]
+fn tidy_elementary_functions_come_from_one_place() {
+    // The platform's functions differ in their last bits.
+    for (path, text) in sources("src") {
+        for forbidden in
+            [".sin()", ".cos()", ".tan()", ".exp()", ".ln()", ".powf(", ".tanh()", ".cbrt()"]
+        {
+            let allowed = forbidden == ".exp()" || forbidden == ".powf(";
+            let generic = allowed && path.ends_with("src/atmosphere.rs");
+            assert!(!code(&text).contains(forbidden) || generic, "{}: {forbidden}", path.display());
+        }
+    }
+}
+
+#[test]
+fn tidy_the_model_never_reads_the_published_tables() {
+    for (path, text) in sources("src") {
+        assert!(!text.contains("published.toml"), "{}", path.display());
+    }
+}
+
+#[test]
+fn tidy_files_have_one_job() {
+    /// Lines; data tables and tests may be longer.
+    const LIMIT: usize = 330;
+    for (path, text) in sources("src").into_iter().chain(sources("build/src")) {
+        let lines = text.lines().count();
+        assert!(lines <= LIMIT, "{} has {lines} lines", path.display());
+    }
+}

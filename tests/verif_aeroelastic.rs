@@ -1,0 +1,127 @@
+//! The derived elastic terms, against the published rigid ones: a "mode" that is a rigid motion
+//! must answer as the rigid body does.
+#![allow(missing_docs)]
+
+mod model;
+
+use ahv::aero::{Aero, Elastic};
+use ahv::aeroelastic::derive;
+use ahv::beam::Beam;
+use ahv::hermite::Shape;
+use ahv::modes::Modes;
+use ahv::vehicle::Configuration;
+use model::{assert_close, build, data, vehicle};
+
+/// Sums over 2,000 quadrature points.
+const ROUNDING: f64 = 1e-12;
+
+struct Case {
+    aero: Aero,
+    elastic: Elastic,
+    centre: f64,
+}
+
+/// Elastic terms of two made-up modes of unit modal mass: heave, and nose-down pitch about the
+/// moment centre (w up, slope dw/dx = 1).
+fn rigid_motions() -> Case {
+    let data = data();
+    let aero = Aero::new(&data.parker2007);
+    let beam = Beam::even(&data.vehicle, 1.0);
+    let nodes = 0..beam.elements() + 1;
+    let heave = Shape { w: nodes.clone().map(|_| 1.0).collect(), slope: vec![0.0; nodes.len()] };
+    let pitch = Shape {
+        w: nodes.clone().map(|i| beam.station(i) - aero.moment_centre).collect(),
+        slope: vec![1.0; nodes.len()],
+    };
+    let modes =
+        Modes { count: 2, modal_mass: [1.0; 5], shape: vec![heave, pitch], ..Modes::default() };
+    let centre = aero.moment_centre;
+    let fore_body = data.vehicle.geometry.fore_body_m.value;
+    Case { aero, elastic: derive(&aero, &beam, &modes, fore_body, centre), centre }
+}
+
+#[test]
+fn verif_a_rigid_rotation_is_an_incidence() {
+    let Case { aero, elastic, .. } = rigid_motions();
+    let alpha = aero.elastic_alpha;
+    assert_close("C_L", elastic.lift.eta[1], -aero.lift.slope(alpha), ROUNDING);
+    assert_close("C_M", elastic.moment.eta[1], -aero.moment.slope(alpha), ROUNDING);
+    assert_close("C_D", elastic.drag.eta[1], -aero.drag.slope(alpha), ROUNDING);
+    assert_close("inflow", elastic.inflow.eta[1], -1.0, ROUNDING);
+}
+
+#[test]
+fn verif_a_heave_velocity_is_an_incidence() {
+    let Case { aero, elastic, .. } = rigid_motions();
+    let alpha = aero.elastic_alpha;
+    assert_close("C_L", elastic.lift.rate[0], -aero.lift.slope(alpha), ROUNDING);
+    assert_close("C_M", elastic.moment.rate[0], -aero.moment.slope(alpha), ROUNDING);
+    assert!(elastic.lift.eta[0].abs() < ROUNDING && elastic.moment.eta[0].abs() < ROUNDING);
+}
+
+#[test]
+fn verif_loads_add_up_to_the_published_lift_and_moment() {
+    let Case { aero, elastic, .. } = rigid_motions();
+    let [heave, pitch] = [elastic.force[0], elastic.force[1]];
+    for power in 0..3 {
+        // Work on a heave is lift; work on a nose-down pitch is minus the nose-up moment.
+        let [lift, moment] = [aero.lift.alpha[power], -aero.chord * aero.moment.alpha[power]];
+        assert!((heave.alpha[power] - lift).abs() < ROUNDING, "lift, power {power}");
+        assert!((pitch.alpha[power] - moment).abs() < 100.0 * ROUNDING, "moment, power {power}");
+    }
+    assert_close("elevator lift", heave.delta_e, aero.lift.delta_e[0], ROUNDING);
+    assert_close("elevator moment", pitch.delta_e, -aero.chord * aero.moment.delta_e[0], ROUNDING);
+}
+
+#[test]
+fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
+    // q > 0 lifts the nose: w = -(x - x_cg), so a rate of the nose-down shape is -q.
+    let Case { elastic, centre, aero } = rigid_motions();
+    assert_eq!(centre, aero.moment_centre);
+    for force in &elastic.force[..2] {
+        assert_close("rate", force.pitch_rate, -force.elastic.rate[1], ROUNDING);
+    }
+}
+
+#[test]
+fn verif_the_air_damps_every_mode() {
+    // Every surface has a positive lift slope, so mu_i N_rate is negative definite: no flutter
+    // from quasi-steady damping.
+    for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
+        let vehicle = vehicle(configuration);
+        for (i, force) in vehicle.elastic.force.iter().enumerate().take(vehicle.modes) {
+            assert!(force.elastic.rate[i] < 0.0, "{configuration:?}, mode {i}");
+        }
+    }
+}
+
+#[test]
+fn verif_two_strips_are_plausible() {
+    // The fore-body carries more of the lift slope than the rest; both push the right way, as
+    // tangent-wedge theory demands (0.9 per rad of fore-body area at Mach 8).
+    let Case { aero, elastic, .. } = rigid_motions();
+    let data = data();
+    let length = data.vehicle.geometry.length_m.value;
+    let fore = data.vehicle.geometry.fore_body_m.value;
+    let [lift, arm] = [-elastic.lift.eta[1], elastic.moment.eta[1] * aero.chord];
+    let elevator = aero.lift.delta_e[0];
+    let elevator_x = aero.moment_centre - aero.chord * aero.moment.delta_e[0] / elevator;
+    // From total lift slope and its arm, by hand.
+    let (body, body_arm) = (lift - elevator, arm - elevator * (elevator_x - aero.moment_centre));
+    let [x1, x2] = [0.5 * fore, 0.5 * (fore + length)].map(|x| x - aero.moment_centre);
+    let first = (body * x2 - body_arm) / (x2 - x1);
+    let per_area = first * aero.area / fore;
+    assert!((0.7..1.2).contains(&per_area), "{per_area} per rad");
+    assert!(first < body && first > 0.5 * body, "{first} of {body}");
+}
+
+#[test]
+fn verif_the_full_build_scales_inertia_with_fuel() {
+    let full = vehicle(Configuration::SloshBeam);
+    let build = ahv::vehicle::Build { fuel_fraction: 0.0, ..build(Configuration::SloshBeam) };
+    let empty = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
+    let dry = 1.0 - data().vehicle.mass.propellant_fraction.value;
+    assert!(empty.mass < 0.36 * full.mass && empty.mass > dry * full.mass);
+    assert!(empty.inertia < 0.6 * full.inertia && empty.inertia > 0.3 * full.inertia);
+    assert_eq!(full.inertia, data().parker2007.inertia.i_yy_kg_m2_per_m.value);
+}

@@ -1,0 +1,125 @@
+//! The data files: what they must hold, and how a wrong one is refused.
+#![allow(missing_docs)]
+
+use ahv::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
+
+/// Unit that a key's suffix promises; keys without one are plain numbers.
+const SUFFIXES: [(&str, &str); 15] = [
+    ("_kg_m2_per_m", "kg m^2/m"),
+    ("_n_m2_per_m", "N m^2/m"),
+    ("_kg_per_m2", "kg/m^2"),
+    ("_j_per_kg_k", "J/(kg K)"),
+    ("_rad_per_s", "rad/s"),
+    ("_m_per_s2", "m/s^2"),
+    ("_m2_per_m", "m^2/m"),
+    ("_k_per_m", "K/m"),
+    ("_rad", "rad"),
+    ("_pa", "Pa"),
+    ("_k", "K"),
+    ("_m", "m"),
+    ("alpha3", "1/rad^3"),
+    ("2", "1/rad^2"),
+    ("", "1"),
+];
+
+fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {
+    for (key, value) in table {
+        let path = format!("{path}.{key}");
+        match value {
+            toml::Value::Table(inner) if inner.contains_key("value") => check(&path, inner),
+            toml::Value::Table(inner) => for_each_number(inner, &path, check),
+            toml::Value::Array(rows) => {
+                for row in rows {
+                    for_each_number(row.as_table().expect("a table"), &path, check);
+                }
+            }
+            other => assert!(other.is_str(), "{path}: a number without unit and source"),
+        }
+    }
+}
+
+#[test]
+fn verif_every_number_has_unit_source_and_status() {
+    for text in [VEHICLE_TOML, EARTH_TOML, PARKER2007_TOML] {
+        let mut count = 0;
+        for_each_number(&text.parse().unwrap(), "", &mut |path, number| {
+            count += 1;
+            for field in ["unit", "source", "status"] {
+                let text = number.get(field).and_then(toml::Value::as_str).unwrap_or("");
+                assert!(!text.is_empty(), "{path}: no {field}");
+            }
+            let unit = number["unit"].as_str().unwrap();
+            let angle = ["alpha", "delta_e"].iter().any(|name| path.ends_with(name));
+            let expected = SUFFIXES.iter().find(|(suffix, _)| path.ends_with(suffix)).unwrap().1;
+            let expected = if angle { "1/rad" } else { expected };
+            assert_eq!(unit, expected, "{path}");
+        });
+        assert!(count >= 9, "only {count} numbers found");
+    }
+}
+
+/// The message that a vehicle file gets after one replacement.
+fn refused(from: &str, to: &str) -> String {
+    assert!(VEHICLE_TOML.contains(from), "{from} is not in the file");
+    let text = VEHICLE_TOML.replacen(from, to, 1);
+    VehicleData::parse("mine.toml", &text).expect_err(to).to_string()
+}
+
+#[test]
+fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
+    for (from, to, told) in [
+        (
+            "length_m = { value = 30.48",
+            "length_m = { value = -1.0",
+            "geometry.length_m: -1 must be positive",
+        ),
+        (
+            "fore_body_m = { value = 14.3256",
+            "fore_body_m = { value = 99.0",
+            "geometry.fore_body_m: 99 must lie between 0 and 30.48",
+        ),
+        (
+            "propellant_fraction = { value = 0.65",
+            "propellant_fraction = { value = 1.65",
+            "mass.propellant_fraction: 1.65 must lie between 0 and 1",
+        ),
+        (
+            "elements = { value = 500",
+            "elements = { value = 3",
+            "beam.elements: 3 must lie in 8..=20000",
+        ),
+        ("[0.0, 3.81,", "[0.0, 33.81,", "beam.stiffness_station_m"),
+        ("[0.0, 3.81,", "[3.81,", "must run from 0 to 30.48"),
+        ("[2.0438e8,", "[-2.0438e8,", "beam.stiffness_n_m2_per_m: -204380000 must be positive"),
+        ("[2.0438e8,", "[", "beam.stiffness_n_m2_per_m: 8 values for 9 stations"),
+        ("centre_m = { value = 13", "centre_m = { value = 1", "tank.fore.centre_m"),
+        (
+            "share = { value = 0.7516",
+            "share = { value = 0.75",
+            "tank.share: the shares add up to 0.9984",
+        ),
+        ("status = \"identified\"", "status = \"guessed\"", "unknown variant `guessed`"),
+        ("[actuation]", "[actuators]", "unknown field `actuators`"),
+        ("value = 30.48", "value = nan", "must be positive"),
+    ] {
+        let message = refused(from, to);
+        assert!(message.starts_with("mine.toml: ") && message.contains(told), "{message}");
+    }
+}
+
+#[test]
+fn verif_a_syntax_error_names_the_line() {
+    let message = refused("[mass]", "[mass");
+    let line = VEHICLE_TOML.lines().position(|line| line == "[mass]").unwrap() + 1;
+    assert!(message.contains(&format!("line {line}")), "{message}");
+}
+
+#[test]
+fn verif_wrong_air_and_coefficients_are_refused() {
+    let text = EARTH_TOML.replacen("11000.0", "31000.0", 1);
+    let message = EarthData::parse("earth.toml", &text).unwrap_err().to_string();
+    assert!(message.contains("air.layer_base_m"), "{message}");
+    let text = PARKER2007_TOML.replacen("mach = { value = [6.0", "mach = { value = [16.0", 1);
+    let message = AeroData::parse("aero.toml", &text).unwrap_err().to_string();
+    assert!(message.contains("envelope.mach: [16.0, 11.0] must increase"), "{message}");
+}
