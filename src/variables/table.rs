@@ -33,6 +33,11 @@ const fn dependent(mask: u32) -> Dependencies {
     Dependencies { dependent: mask, ..NONE }
 }
 
+/// A mode that a configuration does not have stays at rest: the factor is fixed, not constant.
+const fn fixed(mask: u32) -> Dependencies {
+    Dependencies { fixed: mask, ..NONE }
+}
+
 const fn constant(mask: u32) -> Dependencies {
     Dependencies { constant: mask, ..NONE }
 }
@@ -193,8 +198,8 @@ pub static TABLE: [Variable; 67] = [
     output_state(3, "alpha", ANGLE, "Angle of attack", |f| f.state()[3]),
     output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
     output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
-    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[0])),
-    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[1])),
+    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[0])),
+    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
     output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
@@ -239,15 +244,15 @@ pub static TABLE: [Variable; 67] = [
     derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 2)),
     derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
     derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
-    derivative(5, "der(eta1)", SPEED, constant(1 << 6), |f| rate(f, 5)),
+    derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
     derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
-    derivative(7, "der(eta2)", SPEED, constant(1 << 8), |f| rate(f, 7)),
+    derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
     derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
-    derivative(9, "der(eta3)", SPEED, constant(1 << 10), |f| rate(f, 9)),
+    derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
     derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
-    derivative(11, "der(eta_slosh1)", SPEED, constant(1 << 12), |f| rate(f, 11)),
+    derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
     derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
-    derivative(13, "der(eta_slosh2)", SPEED, constant(1 << 14), |f| rate(f, 13)),
+    derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
 ];
 
