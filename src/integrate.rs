@@ -114,7 +114,8 @@ impl Integrator {
                 continue;
             }
             if !system.holds(&next) {
-                invalid = t + h;
+                // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
+                invalid = target.min(t + h);
                 continue;
             }
             // A step cut by the interval's end says nothing against the longer proposal.
