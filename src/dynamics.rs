@@ -169,9 +169,10 @@ impl Vehicle {
             for k in 0..self.modes {
                 damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
             }
+            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] = force * generalised + self.floor[i]
+            rates[eta_dot] = force * generalised + engine + self.floor[i]
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }

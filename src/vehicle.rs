@@ -134,11 +134,10 @@ impl Vehicle {
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
             if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
         });
-        let fore_body = data.vehicle.geometry.fore_body_m.value;
         Ok(Self {
             atmosphere: Atmosphere::new(&data.earth),
             aero,
-            elastic: derive(&aero, &beam, &modes, fore_body, properties.centre_m),
+            elastic: derive(&aero, &beam, &modes, &data.vehicle.geometry, properties.centre_m),
             mass: properties.mass,
             inertia: set.inertia.i_yy_kg_m2_per_m.value * properties.inertia / full.inertia,
             mass_centre: properties.centre_m,

@@ -36,8 +36,8 @@ fn rigid_motions() -> Case {
     let modes =
         Modes { count: 2, modal_mass: [1.0; 5], shape: vec![heave, pitch], ..Modes::default() };
     let centre = aero.moment_centre;
-    let fore_body = data.vehicle.geometry.fore_body_m.value;
-    Case { aero, elastic: derive(&aero, &beam, &modes, fore_body, centre), centre }
+    let geometry = &data.vehicle.geometry;
+    Case { aero, elastic: derive(&aero, &beam, &modes, geometry, centre), centre }
 }
 
 #[test]
@@ -71,6 +71,28 @@ fn verif_loads_add_up_to_the_published_lift_and_moment() {
     }
     assert_close("elevator lift", heave.delta_e, aero.lift.delta_e[0], ROUNDING);
     assert_close("elevator moment", pitch.delta_e, -aero.chord * aero.moment.delta_e[0], ROUNDING);
+}
+
+#[test]
+fn verif_thrust_works_on_rigid_motions_as_on_the_rigid_body() {
+    let Case { aero, elastic, .. } = rigid_motions();
+    let [heave, pitch] = [elastic.force[0], elastic.force[1]];
+    assert_close("lift of the thrust", heave.thrust_across, 1.0, ROUNDING);
+    assert_close("couple", pitch.thrust_couple, -aero.thrust_arm, ROUNDING);
+    assert!(heave.thrust_couple.abs() < ROUNDING && pitch.thrust_across.abs() < ROUNDING);
+}
+
+#[test]
+fn verif_liquid_at_rest_lies_on_the_floor() {
+    // In steady flight every force on a sloshing mass is balanced without its spring. What is left
+    // is what the modes beyond the kept ones would carry.
+    for fuel_fraction in [0.0, 0.5, 1.0] {
+        let build = ahv::vehicle::Build { fuel_fraction, ..build(Configuration::SloshBeam) };
+        let vehicle = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
+        let trim = ahv::trim::trim(&vehicle, &build.condition).unwrap();
+        let slosh = vehicle.outputs(&trim.state, &trim.control).slosh;
+        assert!(slosh.iter().all(|s| s.abs() < 2e-3), "fuel {fuel_fraction}: {slosh:?} m");
+    }
 }
 
 #[test]

@@ -61,6 +61,8 @@ impl VehicleData {
         let length = data.geometry.length_m.value;
         check.positive("geometry.length_m", length)?;
         check.inside("geometry.fore_body_m", data.geometry.fore_body_m.value, [0.0, length])?;
+        let tail = length - data.geometry.fore_body_m.value;
+        check.inside("geometry.nacelle_m", data.geometry.nacelle_m.value, [0.0, tail])?;
         data.check_mass(&check, length)?;
         data.check_beam(&check, length)?;
         data.check_tanks(&check, length)?;

@@ -245,15 +245,15 @@ pub static TABLE: [Variable; 67] = [
     derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
     derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
     derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
-    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
+    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 6)),
     derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
-    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
+    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 8)),
     derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
-    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
+    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 10)),
     derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
-    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
+    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 12)),
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
-    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
+    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 14)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {
