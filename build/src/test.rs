@@ -70,7 +70,11 @@ fn check(command: &mut Command) -> Result<()> {
 fn prerequisites() -> Result<()> {
     const NEEDED: [(&str, &[&str], &str); 4] = [
         ("cc", &["--version"], "gcc"),
-        ("python3", &["--version"], "python3"),
+        (
+            "python3",
+            &["-c", "import sys; assert sys.version_info >= (3, 11)"],
+            "python3 (3.11 or newer)",
+        ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
     ];
