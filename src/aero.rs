@@ -60,7 +60,8 @@ pub struct ElasticTerm {
     pub rate: [f64; MODES],
 }
 
-/// Generalised aerodynamic force of one mode over qbar S, m (mode shapes are dimensionless).
+/// Generalised force on one mode: aerodynamic terms over qbar S, thrust terms over the thrust; mode
+/// shapes are dimensionless, and both are divided by the modal mass.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ModalForce {
     /// N^0, N^alpha, N^alpha2: the rigid body's load, as a polynomial in the incidence.
@@ -71,6 +72,10 @@ pub struct ModalForce {
     pub elastic: ElasticTerm,
     /// Per q/V, m.
     pub pitch_rate: f64,
+    /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
+    pub thrust_across: f64,
+    /// Of the thrust's couple, T z_T, which acts at the nacelle.
+    pub thrust_couple: f64,
 }
 
 /// Elastic terms of eq. (4) for one set of modes.

@@ -10,11 +10,15 @@
 //! a pitch rate by q (x - x_cg)/V. Strip and elevator answer with their lift slope at one
 //! reference incidence. The pitch rate enters the modal forces only: the published rigid part has
 //! no q-derivatives, and eq. (4) has none.
+//!
+//! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
+//! the air, and a beam that feels one without the other seems to spin.
 
 use crate::aero::{Aero, Elastic, ModalForce};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
+use crate::params::Geometry;
 
 /// A part of the body that answers to local incidence.
 struct Surface {
@@ -110,14 +114,17 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
-/// `fore_body` (m) is the length of the fore-body, `mass_centre` its station from the nose (m).
+/// `geometry` gives the fore-body and the nacelle; `mass_centre` is a station, m from the nose.
 pub fn derive(
     aero: &Aero,
     beam: &Beam,
     modes: &Modes,
-    fore_body: f64,
+    geometry: &Geometry,
     mass_centre: f64,
 ) -> Elastic {
+    let fore_body = geometry.fore_body_m.value;
+    let engine = beam.point(fore_body + 0.5 * geometry.nacelle_m.value);
+    let centre = beam.point(mass_centre);
     let surfaces = surfaces(aero, beam, &modes.shape, fore_body);
     // Sum over the surfaces of lift slope times an average.
     let answer =
@@ -145,6 +152,9 @@ pub fn derive(
         let mut force = ModalForce {
             alpha: std::array::from_fn(load),
             delta_e: surfaces[2].slope * surfaces[2].mean.phi[i] * per_mass,
+            thrust_across: modes.shape[i].w_at(&centre) * per_mass,
+            // Nose up and w up: the couple works on a falling slope.
+            thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&engine) * per_mass,
             pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,
             ..ModalForce::default()
         };

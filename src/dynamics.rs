@@ -17,7 +17,7 @@ pub const STATES: usize = RIGID + 2 * MODES;
 pub const INPUTS: usize = 2;
 /// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
-    [1e3, 1e4, 0.01, 0.01, 0.01, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1];
+    [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
 
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];
@@ -169,9 +169,10 @@ impl Vehicle {
             for k in 0..self.modes {
                 damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
             }
+            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] = force * generalised + self.floor[i]
+            rates[eta_dot] = force * generalised + engine + self.floor[i]
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }

@@ -67,6 +67,8 @@ pub struct Geometry {
     pub length_m: Quantity,
     /// Length of the fore-body, m.
     pub fore_body_m: Quantity,
+    /// Length of the nacelle, which follows the fore-body, m.
+    pub nacelle_m: Quantity,
 }
 
 /// Mass of the full vehicle and the propellant's part in it.

@@ -78,13 +78,18 @@ impl Data {
     }
 }
 
+/// Least gravity, over gravity at rest, for which a vehicle is put together.
+const WEIGHTLESS: f64 = 1e-3;
+
 /// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
 /// steady flight.
 fn effective_gravity(data: &Data, condition: &Condition) -> f64 {
     let atmosphere = Atmosphere::new(&data.earth);
     let start = condition.start(&atmosphere);
     let (gravity, distance) = atmosphere.gravity(start[1]);
-    (gravity - start[0] * start[0] / distance) * libm::cos(start[2])
+    let felt = (gravity - start[0] * start[0] / distance) * libm::cos(start[2]);
+    // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
+    felt.max(WEIGHTLESS * gravity)
 }
 
 /// The beam of a configuration with the sloshing masses on it.
@@ -134,11 +139,10 @@ impl Vehicle {
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
             if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
         });
-        let fore_body = data.vehicle.geometry.fore_body_m.value;
         Ok(Self {
             atmosphere: Atmosphere::new(&data.earth),
             aero,
-            elastic: derive(&aero, &beam, &modes, fore_body, properties.centre_m),
+            elastic: derive(&aero, &beam, &modes, &data.vehicle.geometry, properties.centre_m),
             mass: properties.mass,
             inertia: set.inertia.i_yy_kg_m2_per_m.value * properties.inertia / full.inertia,
             mass_centre: properties.centre_m,

@@ -85,13 +85,13 @@ pub struct Fly {
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Communication step, s [default: that of the FMU]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Stop time, s [default: that of the FMU]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub stop: Option<f64>,
     /// Relative tolerance of the integration [default: that of the FMU]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]
     pub set: Set,

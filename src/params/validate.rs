@@ -1,6 +1,7 @@
 //! Reading and checking of the data files: a wrong number is refused with file, key and limit.
 
 use super::{AeroData, EarthData, VehicleData};
+use crate::atmosphere::MAX_LAYERS;
 use crate::error::Error;
 use serde::Deserialize;
 
@@ -61,6 +62,8 @@ impl VehicleData {
         let length = data.geometry.length_m.value;
         check.positive("geometry.length_m", length)?;
         check.inside("geometry.fore_body_m", data.geometry.fore_body_m.value, [0.0, length])?;
+        let tail = length - data.geometry.fore_body_m.value;
+        check.inside("geometry.nacelle_m", data.geometry.nacelle_m.value, [0.0, tail])?;
         data.check_mass(&check, length)?;
         data.check_beam(&check, length)?;
         data.check_tanks(&check, length)?;
@@ -129,6 +132,9 @@ impl EarthData {
         check.that(bases.value.len() == lapses.value.len(), "air.layer_lapse_k_per_m", || {
             format!("{} values for {} layers", lapses.value.len(), bases.value.len())
         })?;
+        check.that(bases.value.len() <= MAX_LAYERS, "air.layer_base_m", || {
+            format!("{} layers, at most {MAX_LAYERS}", bases.value.len())
+        })?;
         check.positive("earth.gravity_m_per_s2", data.earth.gravity_m_per_s2.value)?;
         check.positive("earth.radius_m", data.earth.radius_m.value)?;
         Ok(data)
@@ -149,6 +155,13 @@ impl AeroData {
         check.positive("reference.area_m2_per_m", data.reference.area_m2_per_m.value)?;
         check.positive("reference.chord_m", data.reference.chord_m.value)?;
         check.positive("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value)?;
+        let elevator = data.lift.delta_e.as_ref().map_or(0.0, |q| q.value);
+        check.that(elevator != 0.0, "lift.delta_e", || "the elevator must lift".into())?;
+        for (key, fit) in [("thrust", &data.thrust), ("thrust_phi", &data.thrust_phi)] {
+            check.that(fit.delta_e.is_none() && fit.delta_e2.is_none(), key, || {
+                "thrust does not depend on the elevator".into()
+            })?;
+        }
         // The elastic terms are derived from loads that are quadratic in the incidence.
         for (key, fit) in [("lift.alpha3", &data.lift), ("moment.alpha3", &data.moment)] {
             check.that(fit.alpha3.is_none(), key, || "lift and moment must be quadratic".into())?;

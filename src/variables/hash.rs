@@ -65,6 +65,10 @@ pub const MODEL_HASH: u128 = {
         hash = fnv_text(hash, variable.description);
         hash = fnv_kind(hash, &variable.kind);
         hash = fnv_bits(hash, role(&variable.role));
+        let claims = variable.dependencies;
+        hash = fnv_bits(hash, claims.dependent as u64);
+        hash = fnv_bits(hash, claims.fixed as u64);
+        hash = fnv_bits(hash, claims.constant as u64);
         if let Some([min, max]) = variable.range {
             hash = fnv_bits(fnv_bits(hash, min.to_bits()), max.to_bits());
         }

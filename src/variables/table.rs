@@ -33,6 +33,11 @@ const fn dependent(mask: u32) -> Dependencies {
     Dependencies { dependent: mask, ..NONE }
 }
 
+/// A mode that a configuration does not have stays at rest: the factor is fixed, not constant.
+const fn fixed(mask: u32) -> Dependencies {
+    Dependencies { fixed: mask, ..NONE }
+}
+
 const fn constant(mask: u32) -> Dependencies {
     Dependencies { constant: mask, ..NONE }
 }
@@ -193,8 +198,8 @@ pub static TABLE: [Variable; 67] = [
     output_state(3, "alpha", ANGLE, "Angle of attack", |f| f.state()[3]),
     output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
     output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
-    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[0])),
-    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[1])),
+    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[0])),
+    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
     output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
@@ -208,7 +213,7 @@ pub static TABLE: [Variable; 67] = [
     parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, _| f.change(|p| p.build.aero = AeroSet::Parker2007)),
     parameter("fuel_fraction", Kind::Real(ONE), Some([0.0, 1.0]), "Propellant left", |f| f.parameters().build.fuel_fraction, |f, v| f.change(|p| p.build.fuel_fraction = v)),
     parameter("slosh_damping", Kind::Real(ONE), Some([0.0, 1.0]), "Damping ratio of the sloshing masses", |f| f.parameters().build.slosh_damping, |f, v| f.change(|p| p.build.slosh_damping = v)),
-    parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
+    parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs, 0.1 rad/s and more; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
     parameter("mach0", Kind::Real(ONE), Some([0.1, 30.0]), "Initial Mach number", |f| f.parameters().build.condition.mach, |f, v| f.change(|p| p.build.condition.mach = v)),
     parameter("altitude0", Kind::Real(METRE), Some([0.0, 85000.0]), "Initial altitude", |f| f.parameters().build.condition.altitude, |f, v| f.change(|p| p.build.condition.altitude = v)),
     parameter("gamma0", Kind::Real(ANGLE), Some([-1.5, 1.5]), "Initial flight-path angle", |f| f.parameters().build.condition.gamma, |f, v| f.change(|p| p.build.condition.gamma = v)),
@@ -239,16 +244,16 @@ pub static TABLE: [Variable; 67] = [
     derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 2)),
     derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
     derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
-    derivative(5, "der(eta1)", SPEED, constant(1 << 6), |f| rate(f, 5)),
-    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
-    derivative(7, "der(eta2)", SPEED, constant(1 << 8), |f| rate(f, 7)),
-    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
-    derivative(9, "der(eta3)", SPEED, constant(1 << 10), |f| rate(f, 9)),
-    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
-    derivative(11, "der(eta_slosh1)", SPEED, constant(1 << 12), |f| rate(f, 11)),
-    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
-    derivative(13, "der(eta_slosh2)", SPEED, constant(1 << 14), |f| rate(f, 13)),
-    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
+    derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
+    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 6)),
+    derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
+    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 8)),
+    derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
+    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 10)),
+    derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
+    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 12)),
+    derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
+    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 14)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {
