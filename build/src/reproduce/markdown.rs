@@ -1,6 +1,6 @@
 //! The report as Markdown (CommonMark with tables).
 
-use super::claims::Tested;
+use super::claims::{HARDLY, SLIGHT, Tested};
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
 use super::tables::{COLUMNS, Cell, REASONS, Table};
 use super::verdict::RANKS;
@@ -226,6 +226,17 @@ fn claims(claims: &[Tested]) -> String {
         })
         .collect();
     let mut text = table(["", "where", "claim", "verdict"], 3, &rows);
+    for claim in claims {
+        if let Some(note) = &claim.outcome.note {
+            text += &format!("* ({}) {}\n", claim.id, escape(note));
+        }
+    }
+    text += &format!(
+        "\nWhat changes by less than {:.0} % hardly moves; \"slightly\" ends at {:.0} %. \"Moves\" \
+         asks for more than hardly; less is \"in sign only\".\n\n",
+        100.0 * HARDLY,
+        100.0 * SLIGHT
+    );
     let rows: Vec<[String; 5]> = claims
         .iter()
         .flat_map(|claim| {
