@@ -1,6 +1,9 @@
 //! The numbers of the vehicle, read from `src/data`: each with value, unit, source and status.
 
+mod shape;
 mod validate;
+
+pub use shape::{EngineData, Outline};
 
 use serde::Deserialize;
 
@@ -55,6 +58,10 @@ pub struct VehicleData {
     pub tank: [TankData; 2],
     /// Limits of the controls.
     pub actuation: Actuation,
+    /// Outer shape of the first-principles model.
+    pub outline: Outline,
+    /// Engine of the first-principles model.
+    pub engine: EngineData,
     /// Start values of the parameters.
     pub default: Defaults,
 }

@@ -4,12 +4,13 @@
 use ahv::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
 
 /// Unit that a key's suffix promises; keys without one are plain numbers.
-const SUFFIXES: [(&str, &str); 15] = [
+const SUFFIXES: [(&str, &str); 16] = [
     ("_kg_m2_per_m", "kg m^2/m"),
     ("_n_m2_per_m", "N m^2/m"),
     ("_kg_per_m2", "kg/m^2"),
     ("_j_per_kg_k", "J/(kg K)"),
     ("_rad_per_s", "rad/s"),
+    ("_j_per_kg", "J/kg"),
     ("_m_per_s2", "m/s^2"),
     ("_m2_per_m", "m^2/m"),
     ("_k_per_m", "K/m"),
@@ -101,6 +102,16 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         ("status = \"identified\"", "status = \"guessed\"", "unknown variant `guessed`"),
         ("[actuation]", "[actuators]", "unknown field `actuators`"),
         ("value = 30.48", "value = nan", "must be positive"),
+        (
+            "nacelle_m = { value = 6.096",
+            "nacelle_m = { value = 26.096",
+            "outline.nacelle_m: 26.096 must lie between 0 and 16.1544",
+        ),
+        (
+            "nozzle_area_ratio = { value = 6.35",
+            "nozzle_area_ratio = { value = 0.5",
+            "engine.nozzle_area_ratio: 0.5 must be 1 or more",
+        ),
     ] {
         let message = refused(from, to);
         assert!(message.starts_with("mine.toml: ") && message.contains(told), "{message}");
