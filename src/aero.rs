@@ -5,13 +5,15 @@ use crate::modes::MODES;
 use crate::params::{AeroData, PolynomialData};
 use crate::scalar::Scalar;
 
-/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 in incidence a and elevator deflection d, rad.
+/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 + e a d in incidence a and elevator deflection d, rad.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Polynomial {
     /// Coefficients of a^0 to a^3.
     pub alpha: [f64; 4],
     /// Coefficients of d and d^2.
     pub delta_e: [f64; 2],
+    /// Coefficient of a d.
+    pub cross: f64,
 }
 
 impl Polynomial {
@@ -26,6 +28,7 @@ impl Polynomial {
                 value(&data.alpha3),
             ],
             delta_e: [value(&data.delta_e), value(&data.delta_e2)],
+            cross: value(&data.alpha_delta_e),
         }
     }
 
@@ -40,7 +43,7 @@ impl Polynomial {
     #[inline]
     pub fn at<S: Scalar>(&self, alpha: S, delta_e: S) -> S {
         let [d1, d2] = self.delta_e;
-        self.body(alpha) + (delta_e * d2 + d1) * delta_e
+        self.body(alpha) + (delta_e * d2 + alpha * self.cross + d1) * delta_e
     }
 
     /// d/da of the body part, per rad.
@@ -68,6 +71,8 @@ pub struct ModalForce {
     pub alpha: [f64; 3],
     /// N^delta_e, per rad.
     pub delta_e: f64,
+    /// Of the lift that the plume adds, C_L,phi phi.
+    pub plume: f64,
     /// N^eta and its rate term.
     pub elastic: ElasticTerm,
     /// Per q/V, m.
@@ -116,6 +121,12 @@ pub struct Aero {
     pub thrust: Polynomial,
     /// dC_T/dphi.
     pub thrust_phi: Polynomial,
+    /// dC_L/dphi, in the incidence.
+    pub lift_phi: Polynomial,
+    /// dC_D/dphi.
+    pub drag_phi: Polynomial,
+    /// dC_M/dphi, without thrust.
+    pub moment_phi: Polynomial,
     /// Where all this holds.
     pub envelope: Envelope,
 }
@@ -123,6 +134,9 @@ pub struct Aero {
 impl Aero {
     /// The run-time form of a data file.
     pub fn new(data: &AeroData) -> Self {
+        let optional = |fit: &Option<PolynomialData>| {
+            fit.as_ref().map_or_else(Polynomial::default, Polynomial::new)
+        };
         Self {
             area: data.reference.area_m2_per_m.value,
             chord: data.reference.chord_m.value,
@@ -134,6 +148,9 @@ impl Aero {
             moment: Polynomial::new(&data.moment),
             thrust: Polynomial::new(&data.thrust),
             thrust_phi: Polynomial::new(&data.thrust_phi),
+            lift_phi: optional(&data.lift_phi),
+            drag_phi: optional(&data.drag_phi),
+            moment_phi: optional(&data.moment_phi),
             envelope: Envelope {
                 alpha: data.envelope.alpha_rad.value,
                 mach: data.envelope.mach.value,

@@ -13,6 +13,8 @@ pub const VEHICLE_TOML: &str = include_str!("data/vehicle.toml");
 pub const EARTH_TOML: &str = include_str!("data/earth.toml");
 /// Text of `aero/parker2007.toml`.
 pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
+/// Text of `aero/shock_expansion.toml`.
+pub const SHOCK_EXPANSION_TOML: &str = include_str!("data/aero/shock_expansion.toml");
 
 /// How far a number can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -208,6 +210,12 @@ pub struct AeroData {
     pub thrust: PolynomialData,
     /// C_T per fuel equivalence ratio.
     pub thrust_phi: PolynomialData,
+    /// C_L per fuel equivalence ratio: the plume lifts the aft-body.
+    pub lift_phi: Option<PolynomialData>,
+    /// C_D per fuel equivalence ratio.
+    pub drag_phi: Option<PolynomialData>,
+    /// C_M per fuel equivalence ratio, without the thrust.
+    pub moment_phi: Option<PolynomialData>,
     /// Where the fits hold.
     pub envelope: EnvelopeData,
 }
@@ -254,6 +262,8 @@ pub struct PolynomialData {
     pub delta_e: Option<Quantity>,
     /// Per rad^2 of elevator deflection.
     pub delta_e2: Option<Quantity>,
+    /// Per rad of incidence and rad of elevator deflection.
+    pub alpha_delta_e: Option<Quantity>,
 }
 
 /// Lower and upper limits of validity.

@@ -13,6 +13,7 @@
 //! through a shock, then follows the wall without losses (the shock-expansion method: Eggers,
 //! Syvertson and Kraus, NACA Report 1123). Panels keep their undeformed normals and places.
 
+pub mod elastic;
 pub mod engine;
 pub mod stream;
 pub mod surface;
@@ -114,7 +115,7 @@ impl ShockExpansion {
             moment_height: outline.moment_height_m.value,
             length: vehicle.geometry.length_m.value,
             fore_body: vehicle.geometry.fore_body_m.value,
-            nacelle: outline.nacelle_m.value,
+            nacelle: vehicle.geometry.nacelle_m.value,
             lower_angle: outline.lower_angle_rad.value,
             upper_angle: outline.upper_angle_rad.value,
             elevator: [

@@ -105,7 +105,7 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         (
             "nacelle_m = { value = 6.096",
             "nacelle_m = { value = 26.096",
-            "outline.nacelle_m: 26.096 must lie between 0 and 16.1544",
+            "geometry.nacelle_m: 26.096 must lie between 0 and 16.154",
         ),
         (
             "nozzle_area_ratio = { value = 6.35",

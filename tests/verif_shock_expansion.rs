@@ -144,7 +144,7 @@ fn verif_panels_integrate_the_plume() {
     let model = model(|_| ());
     let stream = ahead(&model, 8.0);
     let run = loads(&model, 8.0, &attitude(2.0, 0.0, 0.3));
-    let start = data().vehicle.geometry.fore_body_m.value + data().vehicle.outline.nacelle_m.value;
+    let start = data().vehicle.geometry.fore_body_m.value + data().vehicle.geometry.nacelle_m.value;
     let length = data().vehicle.geometry.length_m.value - start;
     // Upper side, fore-body, nacelle, aft-body: a wall's panels stand together.
     let aft_body = &run.forces[3 * PANELS..4 * PANELS];

@@ -11,8 +11,6 @@ pub struct Outline {
     pub lower_angle_rad: Quantity,
     /// Upper side, above the axis, rad.
     pub upper_angle_rad: Quantity,
-    /// Length of the nacelle behind the fore-body, m; the aft-body is what remains.
-    pub nacelle_m: Quantity,
     /// Height of the moment centre, m.
     pub moment_height_m: Quantity,
     /// Station of the elevator, m.

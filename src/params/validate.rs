@@ -83,8 +83,6 @@ impl VehicleData {
         let outline = &self.outline;
         check.inside("outline.lower_angle_rad", outline.lower_angle_rad.value, STEEPEST)?;
         check.inside("outline.upper_angle_rad", outline.upper_angle_rad.value, STEEPEST)?;
-        let behind = length - self.geometry.fore_body_m.value;
-        check.inside("outline.nacelle_m", outline.nacelle_m.value, [0.0, behind])?;
         let station = outline.elevator_station_m.value;
         check.inside("outline.elevator_station_m", station, [0.0, length])?;
         check.finite("outline.elevator_height_m", outline.elevator_height_m.value)?;
