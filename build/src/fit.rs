@@ -1,0 +1,207 @@
+//! Fits the curves of eq. (4) to the first-principles model and writes them as a coefficient set.
+
+mod regression;
+
+use crate::cli::Fit;
+use crate::table::{row, table};
+use crate::workspace::{read_text, root, shown, write};
+use ahv::atmosphere::Atmosphere;
+use ahv::dynamics::Vehicle;
+use ahv::parameters::Parameters;
+use ahv::params::{
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, Quantity, Status, VEHICLE_TOML, VehicleData,
+};
+use ahv::shock_expansion::ShockExpansion;
+use ahv::shock_expansion::stream::Stream;
+use ahv::trim::trim;
+use ahv::vehicle::{AeroSet, Build, Configuration, Data};
+use anyhow::{Result, bail};
+use regression::{Axis, COEFFICIENTS, Deviation, Sample, TERMS, deviation, fit, samples};
+use std::fmt::Write;
+
+/// alpha and delta_e in deg, phi.
+const GRID: [Axis; 3] = [(-2.0, 1.0, 8), (-20.0, 5.0, 9), (0.0, 0.1, 11)];
+/// Between the points of the grid.
+const HELD_OUT: [Axis; 3] = [(-1.5, 1.0, 7), (-17.5, 5.0, 8), (0.05, 0.1, 10)];
+/// Mach numbers at which the fit is compared with the model, to show where it stops to hold.
+const ELSEWHERE: [f64; 4] = [7.0, 7.5, 8.5, 9.0];
+const SOURCE: &str = "regression of shock_expansion, see cargo ahv fit";
+
+/// The files that the fit is made from; the one it makes is not among them.
+struct Inputs {
+    vehicle: VehicleData,
+    earth: EarthData,
+    published: AeroData,
+}
+
+/// Factors and how good they are.
+struct Fitted {
+    factors: [Vec<f64>; 4],
+    rows: Vec<Vec<String>>,
+}
+
+pub fn run(options: &Fit) -> Result<()> {
+    let file = root().join("src/data/aero/shock_expansion.toml");
+    let inputs = Inputs {
+        vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
+        earth: EarthData::parse("earth.toml", EARTH_TOML)?,
+        published: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
+    };
+    let result = regress(&inputs)?;
+    print!("{}", table(&result.rows));
+    let text = text(&inputs, &result)?;
+    if !options.check {
+        write(&file, text)?;
+        println!("{} is written", shown(&file));
+    } else if read_text(&file)? != text {
+        bail!(
+            "{} is not what the model says; run `cargo ahv fit`, then `cargo ahv describe`, and \
+             commit the results",
+            shown(&file)
+        );
+    } else {
+        println!("{} is up to date", shown(&file));
+    }
+    Ok(())
+}
+
+fn regress(inputs: &Inputs) -> Result<Fitted> {
+    let model = ShockExpansion::new(&inputs.vehicle, &inputs.earth);
+    let atmosphere = Atmosphere::new(&inputs.earth);
+    let default = &inputs.vehicle.default;
+    let at = |mach: f64| model.medium.ahead(&atmosphere, mach, default.altitude_m.value);
+    let take = |ahead: &Stream, axes| samples(&model, ahead, &inputs.published, axes);
+
+    let design = at(default.mach.value);
+    let (grid, choked) = take(&design, GRID)?;
+    let (held_out, held_out_choked) = take(&design, HELD_OUT)?;
+    let mut factors: [Vec<f64>; 4] = Default::default();
+    for (coefficient, factors) in factors.iter_mut().enumerate() {
+        *factors = fit(&grid, coefficient)?;
+    }
+
+    let mut rows = vec![row(["", "points", "choked", "C_L", "C_D", "C_M", "C_T"])];
+    let mut report = |name: &str, samples: &[Sample], choked: usize, of: fn(&Deviation) -> f64| {
+        let mut cells = vec![name.to_string(), samples.len().to_string(), choked.to_string()];
+        for (coefficient, factors) in factors.iter().enumerate() {
+            cells.push(format!("{:.5}", of(&deviation(samples, coefficient, factors))));
+        }
+        rows.push(cells);
+    };
+    report("range of values", &grid, choked, |d| d.range);
+    report("fit, rms", &grid, choked, |d| d.rms);
+    report("fit, largest", &grid, choked, |d| d.largest);
+    report("held out, rms", &held_out, held_out_choked, |d| d.rms);
+    report("held out, largest", &held_out, held_out_choked, |d| d.largest);
+    for mach in ELSEWHERE {
+        let (samples, choked) = take(&at(mach), HELD_OUT)?;
+        report(&format!("at Mach {mach}, rms"), &samples, choked, |d| d.rms);
+    }
+    Ok(Fitted { factors, rows })
+}
+
+fn status(status: Status) -> &'static str {
+    match status {
+        Status::Published => "published",
+        Status::Converted => "converted",
+        Status::Derived => "derived",
+        Status::Identified => "identified",
+        Status::Assumed => "assumed",
+    }
+}
+
+fn line(key: &str, value: &str, unit: &str, source: &str, status: &str) -> String {
+    format!(
+        "{key} = {{ value = {value}, unit = \"{unit}\", source = \"{source}\", \
+         status = \"{status}\" }}\n"
+    )
+}
+
+fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
+    let value = format!("{:?}", quantity.value);
+    line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
+}
+
+/// The data file. The incidence of the elastic derivatives is that of trimmed flight, which does
+/// not depend on them.
+fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
+    let provisional = inputs.published.reference.elastic_alpha_rad.value;
+    let first = file(inputs, result, provisional)?;
+    let data = Data {
+        shock_expansion: AeroData::parse("aero/shock_expansion.toml", &first)?,
+        vehicle: inputs.vehicle.clone(),
+        earth: inputs.earth.clone(),
+        ..Data::embedded()?
+    };
+    let build = Build {
+        configuration: Configuration::Rigid,
+        aero: AeroSet::ShockExpansion,
+        ..Parameters::new(&data).build
+    };
+    let trimmed = trim(&Vehicle::new(&data, &build)?, &build.condition)?;
+    let alpha = format!("{:.5}", trimmed.state[3]).parse()?;
+    file(inputs, result, alpha)
+}
+
+fn file(inputs: &Inputs, result: &Fitted, elastic_alpha: f64) -> Result<String> {
+    let mut text = String::from(
+        "# Curve fits of eq. (4) to the first-principles air and engine model. Written by `cargo ahv fit`:\n\
+         # do not edit. Angles in rad; C_T is thrust over dynamic pressure and reference area.\n#\n",
+    );
+    let degrees = |(first, step, count): Axis| {
+        format!("{first} to {} in steps of {step}", first + step * (count - 1) as f64)
+    };
+    let [alpha, delta_e, phi] = GRID;
+    let default = &inputs.vehicle.default;
+    writeln!(
+        text,
+        "# Least squares at Mach {}, {} m: alpha {} deg, delta_e {} deg,\n\
+         # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n#",
+        default.mach.value,
+        default.altitude_m.value,
+        degrees(alpha),
+        degrees(delta_e),
+        phi.0,
+        phi.0 + phi.1 * (phi.2 - 1) as f64,
+        phi.1,
+    )?;
+    for line in table(&result.rows).lines() {
+        writeln!(text, "# {}", line.trim_end())?;
+    }
+
+    let published = &inputs.published;
+    let reference = &published.reference;
+    text.push_str("\n[reference]\n");
+    text.push_str(&copied("area_m2_per_m", &reference.area_m2_per_m));
+    text.push_str(&copied("chord_m", &reference.chord_m));
+    text.push_str(&copied("moment_centre_m", &reference.moment_centre_m));
+    text.push_str(&copied("thrust_arm_m", &reference.thrust_arm_m));
+    let source = "incidence of the elastic derivatives: rigid trim of this set";
+    text.push_str(&line(
+        "elastic_alpha_rad",
+        &format!("{elastic_alpha:?}"),
+        "rad",
+        source,
+        "derived",
+    ));
+    text.push_str("\n[inertia]\n");
+    text.push_str(&copied("i_yy_kg_m2_per_m", &published.inertia.i_yy_kg_m2_per_m));
+    text.push_str(&copied("structural_damping", &published.inertia.structural_damping));
+    for (terms, factors) in TERMS.iter().zip(&result.factors) {
+        let mut table = "";
+        for (term, factor) in terms.iter().zip(factors) {
+            if term.table != table {
+                table = term.table;
+                writeln!(text, "\n[{table}]")?;
+            }
+            let value = format!("{factor:?}");
+            text.push_str(&line(term.key, &value, term.unit(), SOURCE, "derived"));
+        }
+    }
+    text.push_str("\n[envelope]\n");
+    text.push_str(&copied("alpha_rad", &published.envelope.alpha_rad));
+    text.push_str(&copied("mach", &published.envelope.mach));
+    text.push_str(&copied("altitude_m", &published.envelope.altitude_m));
+    debug_assert!(COEFFICIENTS.len() == result.factors.len());
+    Ok(text)
+}
