@@ -77,7 +77,9 @@ impl Means {
 
 /// The two strips and the elevator.
 fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surface; 3] {
-    let [elevator_lift, elevator_moment] = [aero.lift.delta_e[0], aero.moment.delta_e[0]];
+    let at = aero.elastic_delta_e;
+    let [elevator_lift, elevator_moment] =
+        [&aero.lift, &aero.moment].map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
         let own = f64::from(power == 1);
@@ -158,7 +160,7 @@ pub fn derive(
         };
         let mut force = ModalForce {
             alpha: std::array::from_fn(load),
-            delta_e: surfaces[2].slope * surfaces[2].mean.phi[i] * per_mass,
+            delta_e: aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass,
             thrust_across: modes.shape[i].w_at(&centre) * per_mass,
             plume: plume.map_or(0.0, |place| modes.shape[i].w_at(&place) * per_mass),
             // Nose up and w up: the couple works on a falling slope.

@@ -163,13 +163,14 @@ impl Vehicle {
         rates[4] = loads.moment * (1.0 / self.inertia);
 
         let force = loads.qbar * self.aero.area;
+        let elevator = self.aero.lift.elevator(u[0]);
         let plume = u[1] * self.aero.lift_phi.body(alpha);
         for i in 0..self.modes {
             let n = &self.elastic.force[i];
             let [n_0, n_alpha, n_alpha2] = n.alpha;
             let generalised = (alpha * n_alpha2 + n_alpha) * alpha
                 + n_0
-                + u[0] * n.delta_e
+                + elevator * n.delta_e
                 + plume * n.plume
                 + q * per_speed * n.pitch_rate
                 + self.elastic_sum(&n.elastic, x, per_speed);

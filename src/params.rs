@@ -234,6 +234,8 @@ pub struct Reference {
     pub thrust_arm_m: Quantity,
     /// Incidence at which the elastic derivatives are taken, rad.
     pub elastic_alpha_rad: Quantity,
+    /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
+    pub elastic_delta_e_rad: Option<Quantity>,
 }
 
 /// Inertia and damping of a coefficient set.
@@ -262,6 +264,8 @@ pub struct PolynomialData {
     pub delta_e: Option<Quantity>,
     /// Per rad^2 of elevator deflection.
     pub delta_e2: Option<Quantity>,
+    /// Per rad^3 of elevator deflection.
+    pub delta_e3: Option<Quantity>,
     /// Per rad of incidence and rad of elevator deflection.
     pub alpha_delta_e: Option<Quantity>,
 }

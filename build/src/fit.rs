@@ -122,11 +122,10 @@ fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
     line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
 }
 
-/// The data file. The incidence of the elastic derivatives is that of trimmed flight, which does
+/// The data file. Incidence and elevator of the elastic derivatives are those of trimmed flight, which does
 /// not depend on them.
 fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
-    let provisional = inputs.published.reference.elastic_alpha_rad.value;
-    let first = file(inputs, result, provisional)?;
+    let first = file(inputs, result, [0.0; 2])?;
     let data = Data {
         shock_expansion: AeroData::parse("aero/shock_expansion.toml", &first)?,
         vehicle: inputs.vehicle.clone(),
@@ -139,11 +138,10 @@ fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
         ..Parameters::new(&data).build
     };
     let trimmed = trim(&Vehicle::new(&data, &build)?, &build.condition)?;
-    let alpha = format!("{:.5}", trimmed.state[3]).parse()?;
-    file(inputs, result, alpha)
+    file(inputs, result, [trimmed.state[3], trimmed.control[0]])
 }
 
-fn file(inputs: &Inputs, result: &Fitted, elastic_alpha: f64) -> Result<String> {
+fn file(inputs: &Inputs, result: &Fitted, elastic: [f64; 2]) -> Result<String> {
     let mut text = String::from(
         "# Curve fits of eq. (4) to the first-principles air and engine model. Written by `cargo ahv fit`:\n\
          # do not edit. Angles in rad; C_T is thrust over dynamic pressure and reference area.\n#\n",
@@ -176,14 +174,10 @@ fn file(inputs: &Inputs, result: &Fitted, elastic_alpha: f64) -> Result<String> 
     text.push_str(&copied("chord_m", &reference.chord_m));
     text.push_str(&copied("moment_centre_m", &reference.moment_centre_m));
     text.push_str(&copied("thrust_arm_m", &reference.thrust_arm_m));
-    let source = "incidence of the elastic derivatives: rigid trim of this set";
-    text.push_str(&line(
-        "elastic_alpha_rad",
-        &format!("{elastic_alpha:?}"),
-        "rad",
-        source,
-        "derived",
-    ));
+    let source = "where the elastic derivatives are taken: rigid trim of this set";
+    for (key, angle) in ["elastic_alpha_rad", "elastic_delta_e_rad"].into_iter().zip(elastic) {
+        text.push_str(&line(key, &format!("{angle:.5}"), "rad", source, "derived"));
+    }
     text.push_str("\n[inertia]\n");
     text.push_str(&copied("i_yy_kg_m2_per_m", &published.inertia.i_yy_kg_m2_per_m));
     text.push_str(&copied("structural_damping", &published.inertia.structural_damping));

@@ -23,13 +23,14 @@ const fn term(table: &'static str, key: &'static str, powers: [i32; 3]) -> Term 
 }
 
 /// The terms of each coefficient: those of the published set, C_L,alpha2, and what a plume under
-/// the aft-body and an elevator that turns with the body add.
+/// the aft-body and an elevator with strong shocks that turns with the body add.
 pub const TERMS: [&[Term]; 4] = [
     &[
         term("lift", "constant", [0, 0, 0]),
         term("lift", "alpha", [1, 0, 0]),
         term("lift", "alpha2", [2, 0, 0]),
         term("lift", "delta_e", [0, 1, 0]),
+        term("lift", "delta_e3", [0, 3, 0]),
         term("lift_phi", "constant", [0, 0, 1]),
         term("lift_phi", "alpha", [1, 0, 1]),
     ],
@@ -47,6 +48,7 @@ pub const TERMS: [&[Term]; 4] = [
         term("moment", "alpha", [1, 0, 0]),
         term("moment", "alpha2", [2, 0, 0]),
         term("moment", "delta_e", [0, 1, 0]),
+        term("moment", "delta_e3", [0, 3, 0]),
         term("moment_phi", "constant", [0, 0, 1]),
         term("moment_phi", "alpha", [1, 0, 1]),
     ],
