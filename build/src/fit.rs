@@ -7,14 +7,16 @@ use crate::table::{row, table};
 use crate::workspace::{read_text, root, shown, write};
 use ahv::atmosphere::Atmosphere;
 use ahv::dynamics::Vehicle;
+use ahv::modes::{FLEXIBLE, Modes};
 use ahv::parameters::Parameters;
 use ahv::params::{
     AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, Quantity, Status, VEHICLE_TOML, VehicleData,
 };
-use ahv::shock_expansion::ShockExpansion;
+use ahv::shock_expansion::elastic::{self, COMPARED};
 use ahv::shock_expansion::stream::Stream;
+use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::trim::trim;
-use ahv::vehicle::{AeroSet, Build, Configuration, Data};
+use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
 use anyhow::{Result, bail};
 use regression::{Axis, COEFFICIENTS, Deviation, Sample, TERMS, deviation, fit, samples};
 use std::fmt::Write;
@@ -122,26 +124,63 @@ fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
     line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
 }
 
-/// The data file. Incidence and elevator of the elastic derivatives are those of trimmed flight, which does
-/// not depend on them.
+/// The data file. Incidence and elevator of the elastic derivatives are those of trimmed flight,
+/// which does not depend on them.
 fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
-    let first = file(inputs, result, [0.0; 2])?;
-    let data = Data {
-        shock_expansion: AeroData::parse("aero/shock_expansion.toml", &first)?,
+    let first = with_fit(inputs, &file(inputs, result, [0.0; 2], &[])?)?;
+    let build = build(&first, Configuration::Rigid);
+    let trimmed = trim(&Vehicle::new(&first, &build)?, &build.condition)?;
+    let [delta_e, phi] = trimmed.control;
+    let attitude = Attitude { alpha: trimmed.state[3], delta_e, phi };
+
+    let elastic = [attitude.alpha, delta_e];
+    let second = with_fit(inputs, &file(inputs, result, elastic, &[])?)?;
+    let rows = compare(&second, &attitude)?;
+    print!("\nStrips against panels, elastic terms\n{}", table(&rows));
+    file(inputs, result, elastic, &rows)
+}
+
+/// The embedded data with another fit.
+fn with_fit(inputs: &Inputs, text: &str) -> Result<Data> {
+    Ok(Data {
+        shock_expansion: AeroData::parse("aero/shock_expansion.toml", text)?,
         vehicle: inputs.vehicle.clone(),
         earth: inputs.earth.clone(),
         ..Data::embedded()?
-    };
-    let build = Build {
-        configuration: Configuration::Rigid,
-        aero: AeroSet::ShockExpansion,
-        ..Parameters::new(&data).build
-    };
-    let trimmed = trim(&Vehicle::new(&data, &build)?, &build.condition)?;
-    file(inputs, result, [trimmed.state[3], trimmed.control[0]])
+    })
 }
 
-fn file(inputs: &Inputs, result: &Fitted, elastic: [f64; 2]) -> Result<String> {
+fn build(data: &Data, configuration: Configuration) -> Build {
+    Build { configuration, aero: AeroSet::ShockExpansion, ..Parameters::new(data).build }
+}
+
+/// The derived elastic terms against direct integration over panels.
+fn compare(data: &Data, attitude: &Attitude) -> Result<Vec<Vec<String>>> {
+    let model = ShockExpansion::new(&data.vehicle, &data.earth);
+    let mut rows: Vec<_> = COMPARED.iter().map(|name| vec![name.to_string()]).collect();
+    for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
+        let build = build(data, configuration);
+        let vehicle = Vehicle::new(data, &build)?;
+        let (beam, oscillators) = structure(data, &build)?;
+        let modes = Modes::solve(&beam, &oscillators)?;
+        let condition = &build.condition;
+        let ahead = model.medium.ahead(&vehicle.atmosphere, condition.mach, condition.altitude);
+        let direct = model.elastic(&ahead, attitude, &vehicle.aero, &beam, &modes)?;
+        let found = elastic::deviation(&vehicle.elastic, &direct, FLEXIBLE);
+        for (row, value) in rows.iter_mut().zip(found) {
+            row.push(format!("{:.0} %", 100.0 * value));
+        }
+    }
+    rows.insert(0, row(["", "EvenMassBeam", "SloshBeam"]));
+    Ok(rows)
+}
+
+fn file(
+    inputs: &Inputs,
+    result: &Fitted,
+    elastic: [f64; 2],
+    compared: &[Vec<String>],
+) -> Result<String> {
     let mut text = String::from(
         "# Curve fits of eq. (4) to the first-principles air and engine model. Written by `cargo ahv fit`:\n\
          # do not edit. Angles in rad; C_T is thrust over dynamic pressure and reference area.\n#\n",
@@ -164,6 +203,14 @@ fn file(inputs: &Inputs, result: &Fitted, elastic: [f64; 2]) -> Result<String> {
         phi.1,
     )?;
     for line in table(&result.rows).lines() {
+        writeln!(text, "# {}", line.trim_end())?;
+    }
+
+    text.push_str(
+        "#\n# Elastic terms are derived as for the published set: see aeroelastic.rs. Their difference from an\n\
+         # integration of the local incidence over panels, norm over the flexible modes:\n#\n",
+    );
+    for line in table(compared).lines() {
         writeln!(text, "# {}", line.trim_end())?;
     }
 

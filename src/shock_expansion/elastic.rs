@@ -53,3 +53,29 @@ impl ShockExpansion {
         Ok(elastic)
     }
 }
+
+/// Rows of [`deviation`].
+pub const COMPARED: [&str; 6] =
+    ["C_L per eta", "C_M per eta", "N per eta", "C_L per rate", "C_M per rate", "N per rate"];
+
+/// How far elastic terms are from others: norm of the difference over that of `other`, over the
+/// first `modes`; rows as in [`COMPARED`].
+pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
+    let terms = |elastic: &Elastic| {
+        let (mut eta, mut rate) = (Vec::new(), Vec::new());
+        for force in &elastic.force[..modes] {
+            eta.extend_from_slice(&force.elastic.eta[..modes]);
+            rate.extend_from_slice(&force.elastic.rate[..modes]);
+        }
+        let of = |term: &[f64]| term[..modes].to_vec();
+        let (lift, moment) = (&elastic.lift, &elastic.moment);
+        [of(&lift.eta), of(&moment.eta), eta, of(&lift.rate), of(&moment.rate), rate]
+    };
+    let (all, others) = (terms(elastic), terms(other));
+    std::array::from_fn(|row| {
+        let squares = |f: &dyn Fn(f64, f64) -> f64| {
+            all[row].iter().zip(&others[row]).map(|(a, b)| f(*a, *b)).sum::<f64>()
+        };
+        (squares(&|a, b| (a - b) * (a - b)) / squares(&|_, b| b * b)).sqrt()
+    })
+}
