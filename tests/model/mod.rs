@@ -4,10 +4,12 @@
 use ahv::dynamics::Vehicle;
 use ahv::flight::Flight;
 use ahv::parameters::Parameters;
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::vehicle::{AeroSet, Build, Configuration, Data};
 
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+
+pub const AERO_SETS: [AeroSet; 2] = [AeroSet::Parker2007, AeroSet::ShockExpansion];
 
 pub fn data() -> Data {
     Data::embedded().expect("the embedded data are valid")
