@@ -24,6 +24,13 @@ pub fn vehicle(configuration: Configuration) -> Vehicle {
     Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
 }
 
+/// The default builds of all configurations with all coefficient sets.
+pub fn builds() -> impl Iterator<Item = Build> {
+    CONFIGURATIONS
+        .into_iter()
+        .flat_map(|configuration| AERO_SETS.map(|aero| Build { aero, ..build(configuration) }))
+}
+
 /// A trimmed default flight.
 pub fn flight(configuration: Configuration) -> Flight {
     let mut flight = Flight::new().expect("the embedded data are valid");
