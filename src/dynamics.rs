@@ -17,7 +17,7 @@ pub const STATES: usize = RIGID + 2 * MODES;
 pub const INPUTS: usize = 2;
 /// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
-    [1e3, 1e4, 0.01, 0.01, 0.01, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1];
+    [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
 
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];

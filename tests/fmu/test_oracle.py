@@ -118,23 +118,14 @@ def test_verif_damping_takes_energy(vehicle: Callable[..., Vehicle], configurati
 
 
 def test_verif_liquid_at_rest_lies_on_the_floor(vehicle: Callable[..., Vehicle]) -> None:
-    """In trim the springs carry nothing of the sloshing masses' weight.
+    """In trim the springs carry nothing of the sloshing masses' weight, and the beam is at rest.
 
-    Without the floors each mass would hang g_eff/omega^2 below its tank. What is left comes from
-    the thrust: its part T sin(alpha) and its couple z_T T trim the rigid vehicle, but are in no
-    modal force. To the modes the beam seems to accelerate, and the masses lag acceleration/omega^2
-    behind.
+    Without the floors each mass would hang g_eff/omega^2 below its tank; without the thrust's work
+    on the modes it would lag behind a beam that seems to spin. What is left are the modes that are
+    not kept, and the small part of the drag across the body.
     """
     for parameters in ({}, {"fuel_fraction": 0.5}):
         oracle = vehicle(**({"configuration": SLOSH_BEAM} | parameters))
-        state, effective = oracle.trim()
-        outputs = oracle.outputs(state, effective)
-        thrust, arm = outputs["thrust"], oracle.aero["reference"]["thrust_arm_m"]
-        heave = oracle.g_eff * oracle.mass - outputs["lift"]
-        pitch = arm * thrust / oracle.beam.inertia
-        for tank, key in zip(oracle.beam.tanks, ("slosh_1", "slosh_2"), strict=True):
-            lag = heave / oracle.mass - pitch * (tank.centre - oracle.x_cg)
-            assert heave == pytest.approx(thrust * np.sin(state[3]), rel=1e-6)
-            # Half a millimetre for the modes that are not kept.
-            assert outputs[key] == pytest.approx(lag / tank.omega**2, abs=5e-4)
-            assert abs(outputs[key]) < 0.15 * oracle.g_eff / tank.omega**2
+        outputs = oracle.outputs(*oracle.trim())
+        for key in ("slosh_1", "slosh_2"):
+            assert abs(outputs[key]) < 1e-3
