@@ -130,7 +130,7 @@ impl Gas {
         libm::pow(self.total_temperature(mach), 1.0 / (self.gamma - 1.0))
     }
 
-    /// Dynamic pressure over pressure, eq. (47).
+    /// Dynamic pressure over pressure.
     pub fn dynamic_pressure(&self, mach: f64) -> f64 {
         0.5 * self.gamma * mach * mach
     }
@@ -150,7 +150,8 @@ impl Gas {
         if !(ratio >= 1.0 && ratio.is_finite()) {
             return Err(GasError::Choked { ratio });
         }
-        // (area)^((gamma-1)/2) bounds M from above for large M; the logarithm makes Newton quick.
+        // Dropping the 1 in the total temperature bounds M from above; the logarithm makes Newton
+        // quick.
         let at_throat = 0.5 * (self.gamma + 1.0);
         let target = libm::log(ratio);
         let exponent = at_throat / (self.gamma - 1.0);
@@ -216,7 +217,7 @@ impl Gas {
             return Err(GasError::Detached { mach, turn, limit });
         }
         let wave = libm::asin(1.0 / mach);
-        // First-order start (Anderson eq. 4.35): half of the turn, times the gas.
+        // Where a shock of small turn lies in a fast stream.
         let guess = wave + 0.25 * (self.gamma + 1.0) * turn;
         let angle = root([wave, steepest], guess, |angle| {
             let (value, slope) = self.turn(mach, angle);

@@ -90,7 +90,7 @@ fn verif_the_elevator_meets_ackeret_and_newton() {
     let slope = coefficient(8.0, small) / small.to_radians();
     assert_close("Ackeret", slope, 4.0 / 63_f64.sqrt(), 1e-3);
     // A strong shock: above Newton's 2 sin^2, by a little more than the (gamma + 1) sin^2 of a thin
-    // shock layer, for its thickness (Anderson, Hypersonic Gas Dynamics, eq. 2.29: 2.6).
+    // shock layer, for its thickness; hypersonic similarity gives 2.6.
     let newton = 20_f64.to_radians().sin().powi(2);
     let strong = coefficient(12.0, 20.0) / newton;
     assert!((2.4..2.8).contains(&strong), "{strong} sin^2");

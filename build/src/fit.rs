@@ -29,7 +29,7 @@ const HELD_OUT: [Axis; 3] = [(-1.5, 1.0, 7), (-17.5, 5.0, 8), (0.05, 0.1, 10)];
 const ELSEWHERE: [f64; 4] = [7.0, 7.5, 8.5, 9.0];
 const SOURCE: &str = "regression of shock_expansion, see cargo ahv fit";
 
-/// The files that the fit is made from; the one it makes is not among them.
+/// The files that the fit is made from.
 struct Inputs {
     vehicle: VehicleData,
     earth: EarthData,
@@ -82,7 +82,8 @@ fn regress(inputs: &Inputs) -> Result<Fitted> {
         *factors = fit(&grid, coefficient)?;
     }
 
-    let mut rows = vec![row(["", "points", "choked", "C_L", "C_D", "C_M", "C_T"])];
+    let heads = ["", "points", "choked"].into_iter().chain(COEFFICIENTS);
+    let mut rows = vec![heads.map(str::to_string).collect::<Vec<_>>()];
     let mut report = |name: &str, samples: &[Sample], choked: usize, of: fn(&Deviation) -> f64| {
         let mut cells = vec![name.to_string(), samples.len().to_string(), choked.to_string()];
         for (coefficient, factors) in factors.iter().enumerate() {
@@ -193,7 +194,8 @@ fn file(
     writeln!(
         text,
         "# Least squares at Mach {}, {} m: alpha {} deg, delta_e {} deg,\n\
-         # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n#",
+         # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n\
+         # The fit knows no choking: where the burner would be choked, it extrapolates.\n#",
         default.mach.value,
         default.altitude_m.value,
         degrees(alpha),
@@ -243,6 +245,5 @@ fn file(
     text.push_str(&copied("alpha_rad", &published.envelope.alpha_rad));
     text.push_str(&copied("mach", &published.envelope.mach));
     text.push_str(&copied("altitude_m", &published.envelope.altitude_m));
-    debug_assert!(COEFFICIENTS.len() == result.factors.len());
     Ok(text)
 }
