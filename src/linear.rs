@@ -17,7 +17,7 @@ pub struct Linear {
 
 const DIRECTIONS: usize = STATES + INPUTS;
 /// Rows of the state that are the outputs V and gamma.
-const OUTPUT_STATES: [usize; 2] = [0, 2];
+pub const OUTPUT_STATES: [usize; 2] = [0, 2];
 
 impl Linear {
     /// Exact derivatives by dual numbers.
@@ -43,18 +43,24 @@ impl Linear {
 
     /// Transmission zeros from [delta_e, phi] to [V, gamma], rad/s, by frequency: n - 2 of them,
     /// or none if the controls do not reach both rates.
+    pub fn zeros(&self) -> Vec<Complex<f64>> {
+        self.zero_dynamics().map_or_else(Vec::new, eigenvalues)
+    }
+
+    /// Motion of the other states while V and gamma are held; none if the controls do not reach
+    /// both rates. Its eigenvalues are the zeros, its eigenvectors their directions.
     ///
     /// Both outputs are states y and their rates answer the controls at once (B_y is invertible),
-    /// so holding y at zero fixes u = -B_y^-1 A_yz z, and the zeros are the eigenvalues of the
-    /// zero dynamics A_zz - B_z B_y^-1 A_yz (Isidori, Nonlinear Control Systems, 3rd ed., 4.3).
-    pub fn zeros(&self) -> Vec<Complex<f64>> {
+    /// so holding y at zero fixes u = -B_y^-1 A_yz z, which leaves A_zz - B_z B_y^-1 A_yz
+    /// (Isidori, Nonlinear Control Systems, 3rd ed., 4.3).
+    pub fn zero_dynamics(&self) -> Option<DMatrix<f64>> {
         let hidden: Vec<usize> =
             (0..self.a.nrows()).filter(|row| !OUTPUT_STATES.contains(row)).collect();
         let b_y = self.b.select_rows(&OUTPUT_STATES);
         let a_yz = self.a.select_rows(&OUTPUT_STATES).select_columns(&hidden);
-        let Some(held) = b_y.lu().solve(&a_yz) else { return Vec::new() };
+        let held = b_y.lu().solve(&a_yz)?;
         let a_zz = self.a.select_rows(&hidden).select_columns(&hidden);
-        eigenvalues(a_zz - self.b.select_rows(&hidden) * held)
+        Some(a_zz - self.b.select_rows(&hidden) * held)
     }
 }
 

@@ -105,6 +105,14 @@ fn paper_table2_phugoid_cannot_be_printed_as_it_is() {
 }
 
 #[test]
+fn paper_table2_rigid_height_pole_must_be_zero() {
+    // All forces of eq. (4) go with dynamic pressure, so there is a line of steady flights.
+    let printed = published()["table2"]["rigid"]["height"].as_float().unwrap();
+    let poles = linear(&vehicle(Configuration::Rigid)).poles();
+    assert!(poles[0].norm() < 1e-4 * printed.abs(), "{}", poles[0]);
+}
+
+#[test]
 fn paper_table2_signs_and_order_hold_with_the_published_coefficients() {
     // One unstable and one stable short-period pole, growing from rigid over even to slosh, and
     // every aeroelastic pair damped, near the printed frequency.

@@ -1,5 +1,6 @@
 //! What can be typed after `cargo ahv`.
 
+use crate::reproduce::Part;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -23,6 +24,7 @@ pub enum Command {
     #[command(after_help = TRIM_HELP)]
     Trim(Analyse),
     Poles(Poles),
+    Reproduce(Reproduce),
     Methods(Compare),
     Test(Test),
 }
@@ -178,6 +180,28 @@ pub struct Poles {
     pub all: bool,
     #[command(flatten)]
     pub analyse: Analyse,
+}
+
+/// Set every table, figure and claim of the paper beside ours; write a report
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Output files: report.html (stands alone), report.md, report.json, figures/*.svg, figures/*.png.
+
+Examples:
+  cargo ahv reproduce
+  cargo ahv reproduce --only table2,claims
+  cargo ahv reproduce --only fig6 --only fig8 --output target/sweeps
+  cargo ahv reproduce --aero all")]
+pub struct Reproduce {
+    /// Only this part (may be repeated or separated by commas)
+    #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
+    pub only: Vec<Part>,
+    /// Coefficient set, or `all` (may be repeated or separated by commas) [default: that of the FMU]
+    #[arg(long, value_name = "SET", value_delimiter = ',')]
+    pub aero: Vec<String>,
+    /// Directory for the report [default: target/report]
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Check everything: format, lints, Rust tests, description, package, FMU tests in Python

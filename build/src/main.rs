@@ -3,6 +3,7 @@
 mod cli;
 mod describe;
 mod documentation;
+mod figure;
 mod fit;
 mod fly;
 mod fmu;
@@ -18,6 +19,7 @@ mod plot;
 mod poles;
 mod raster;
 mod record;
+mod reproduce;
 mod settings;
 mod structure;
 mod table;
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Modes(options) => modes::run(&options),
         Command::Trim(options) => trim::run(&options),
         Command::Poles(options) => poles::run(&options),
+        Command::Reproduce(options) => reproduce::run(&options),
         Command::Methods(options) => methods::run(&options),
         Command::Test(options) => test::run(&options),
     };

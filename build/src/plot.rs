@@ -1,64 +1,35 @@
 //! The figure of a flight: eight panels over a common time axis, for screen (SVG) and print (PNG).
 
+use crate::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID, decimals, label};
 use crate::panels::{PANELS, Panel};
-use crate::raster;
 use crate::record::Record;
-use crate::workspace::write;
-use anyhow::{Result, anyhow};
-use plotters::coord::Shift;
+use anyhow::Result;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{FontStyle, register_font};
 use std::path::{Path, PathBuf};
 
 /// Size in pixels at scale one.
 const SIZE: (u32, u32) = (1100, 1000);
-/// The PNG is drawn this much larger, ...
-const DRAWN: u32 = 4;
-/// ... and averaged over squares of this size: the backend does not smooth lines itself.
-const AVERAGED: u32 = 2;
 /// Room for the numbers of the vertical axis, pixels at scale one.
 const LEFT: u32 = 54;
 /// Most labels on a vertical axis.
 const LABELS: usize = 7;
-const FONT: &str = "sans-serif";
-
-/// Blue, vermillion and green of Okabe and Ito's palette, which colour-blind readers tell apart.
-const COLOURS: [RGBColor; 3] = [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(0, 158, 115)];
-const GRID: RGBColor = RGBColor(225, 225, 225);
-const FRAME: RGBColor = RGBColor(90, 90, 90);
 
 /// Writes flight.svg and flight.png.
 pub fn write_figures(record: &Record, directory: &Path) -> Result<[PathBuf; 2]> {
-    // An own font: the figure looks the same on a machine that has none.
-    register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
-        .map_err(|_| anyhow!("the built-in font cannot be read"))?;
-    let (svg, png) = (directory.join("flight.svg"), directory.join("flight.png"));
-    let mut text = String::new();
-    draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), record, 1)?;
-    write(&svg, text)?;
-
-    let (width, height) = (SIZE.0 * DRAWN, SIZE.1 * DRAWN);
-    let mut pixels = vec![0; width as usize * height as usize * 3];
-    let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
-    draw(&backend.into_drawing_area(), record, DRAWN)?;
-    write(&png, raster::png(&pixels, width, AVERAGED)?)?;
-    Ok([svg, png])
+    figure::write(&Flight(record), SIZE, &directory.join("flight"))
 }
 
-type Area<B> = DrawingArea<B, Shift>;
-type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+struct Flight<'a>(&'a Record);
 
-fn draw<B: DrawingBackend>(area: &Area<B>, record: &Record, scale: u32) -> Result<()>
-where
-    B::ErrorType: 'static,
-{
-    draw_all(area, record, scale).map_err(|error| anyhow!("the figure cannot be drawn: {error}"))
+impl Drawing for Flight<'_> {
+    fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B> {
+        draw_all(area, self.0, scale)
+    }
 }
 
 fn draw_all<B: DrawingBackend>(area: &Area<B>, record: &Record, scale: u32) -> Drawn<B> {
-    area.fill(&WHITE)?;
     let margin = 6 * scale;
     let inner = area.margin(margin, margin, margin, margin);
     // The bottom panels carry the time axis and its name.
@@ -73,7 +44,7 @@ fn draw_all<B: DrawingBackend>(area: &Area<B>, record: &Record, scale: u32) -> D
             draw_panel(cell, &panel, record, scale, number == 4)?;
         }
     }
-    area.present()
+    Ok(())
 }
 
 fn draw_panel<B: DrawingBackend>(
@@ -106,7 +77,7 @@ fn draw_panel<B: DrawingBackend>(
         .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
         .set_label_area_size(LabelAreaPosition::Bottom, if last { 40 } else { 18 } * scale)
         .build_cartesian_2d(0.0..end, min..max)?;
-    let decimals = decimals(max - min);
+    let decimals = decimals(max - min, LABELS);
     let text = (FONT, 13 * scale).into_font().color(&BLACK);
     chart
         .configure_mesh()
@@ -211,34 +182,9 @@ fn range(values: impl Iterator<Item = f64> + Clone, least: f64) -> [f64; 2] {
     [middle - half, middle + half]
 }
 
-/// Decimals that tell apart the labels over a range. Their distance is the next of 1, 2, 5 times a
-/// power of ten, so one of 0.5 or more to its power of ten needs no further decimal.
-fn decimals(range: f64) -> usize {
-    (-(2.0 * range / LABELS as f64).log10().floor()).clamp(0.0, 6.0) as usize
-}
-
-/// A number on an axis; what rounds to zero has no sign.
-fn label(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if !digits.contains(|c| matches!(c, '1'..='9')) => digits.to_string(),
-        _ => text,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn labels_on_an_axis_are_short() {
-        assert_eq!(decimals(0.015), 3);
-        assert_eq!(decimals(0.045), 2);
-        assert_eq!(decimals(0.2), 2);
-        assert_eq!(decimals(50.0), 0);
-        assert_eq!(label(-1e-17, 2), "0.00");
-        assert_eq!(label(-0.25, 2), "-0.25");
-    }
 
     #[test]
     fn rounding_noise_is_not_blown_up() {

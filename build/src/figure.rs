@@ -1,0 +1,98 @@
+//! A drawing, for screen (SVG) and print (PNG), and what all figures have in common.
+
+use crate::raster;
+use crate::workspace::write as write_file;
+use anyhow::{Result, anyhow};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+use std::path::{Path, PathBuf};
+
+/// The PNG is drawn this much larger, ...
+const DRAWN: u32 = 4;
+/// ... and averaged over squares of this size: the backend does not smooth lines itself.
+const AVERAGED: u32 = 2;
+
+pub const FONT: &str = "sans-serif";
+/// Blue, vermillion, green, reddish purple and orange of Okabe and Ito's palette, which
+/// colour-blind readers tell apart.
+pub const COLOURS: [RGBColor; 5] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+];
+pub const GRID: RGBColor = RGBColor(225, 225, 225);
+pub const FRAME: RGBColor = RGBColor(90, 90, 90);
+
+pub type Area<B> = DrawingArea<B, Shift>;
+pub type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+
+/// Something that can be drawn at any scale.
+pub trait Drawing {
+    fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B>
+    where
+        B::ErrorType: 'static;
+}
+
+/// Writes `stem`.svg and `stem`.png; size in pixels at scale one.
+pub fn write(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<[PathBuf; 2]> {
+    // An own font: the figure looks the same on a machine that has none.
+    register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
+        .map_err(|_| anyhow!("the built-in font cannot be read"))?;
+    let (svg, png) = (stem.with_extension("svg"), stem.with_extension("png"));
+    // Backends know whole pixels only, so both drawings are large and shown smaller.
+    let (width, height) = (size.0 * DRAWN, size.1 * DRAWN);
+    let mut text = String::new();
+    draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), drawing, DRAWN)?;
+    let drawn = format!("width=\"{width}\" height=\"{height}\"");
+    let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+    write_file(&svg, text.replacen(&drawn, &shown, 1))?;
+
+    let mut pixels = vec![0; width as usize * height as usize * 3];
+    let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
+    draw(&backend.into_drawing_area(), drawing, DRAWN)?;
+    write_file(&png, raster::png(&pixels, width, AVERAGED)?)?;
+    Ok([svg, png])
+}
+
+fn draw<B: DrawingBackend>(area: &Area<B>, drawing: &impl Drawing, scale: u32) -> Result<()>
+where
+    B::ErrorType: 'static,
+{
+    let failed = |error| anyhow!("the figure cannot be drawn: {error}");
+    area.fill(&WHITE).map_err(failed)?;
+    drawing.draw(area, scale).map_err(failed)?;
+    area.present().map_err(failed)
+}
+
+/// Decimals that tell apart the labels over a range. Their distance is the next of 1, 2, 5 times a
+/// power of ten, so one of 0.5 or more to its power of ten needs no further decimal.
+pub fn decimals(range: f64, labels: usize) -> usize {
+    (-(2.0 * range / labels as f64).log10().floor()).clamp(0.0, 6.0) as usize
+}
+
+/// A number on an axis; what rounds to zero has no sign.
+pub fn label(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if !digits.contains(|c| matches!(c, '1'..='9')) => digits.to_string(),
+        _ => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_on_an_axis_are_short() {
+        assert_eq!(decimals(0.015, 7), 3);
+        assert_eq!(decimals(0.045, 7), 2);
+        assert_eq!(decimals(0.2, 7), 2);
+        assert_eq!(decimals(50.0, 7), 0);
+        assert_eq!(label(-1e-17, 2), "0.00");
+        assert_eq!(label(-0.25, 2), "-0.25");
+    }
+}

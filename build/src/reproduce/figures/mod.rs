@@ -1,0 +1,7 @@
+//! Drawings of the report.
+
+mod axes;
+pub mod loci;
+mod marker;
+pub mod shapes;
+pub mod veering;

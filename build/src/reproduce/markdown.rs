@@ -1,0 +1,286 @@
+//! The report as Markdown (CommonMark with tables).
+
+use super::claims::Tested;
+use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
+use super::tables::{COLUMNS, Cell, REASONS, Table};
+use super::verdict::RANKS;
+use super::{advice, interaction::Interaction};
+use crate::table::number;
+
+/// Text that stays as it is: nothing in it becomes emphasis, a cell or HTML.
+pub fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if matches!(letter, '\\' | '|' | '*' | '_' | '<' | '>' | '[' | ']' | '`' | '&' | '~') {
+            escaped.push('\\');
+        }
+        escaped.push(letter);
+    }
+    escaped
+}
+
+/// A table of text; the cells are escaped here. All columns but the first and the last `words` are
+/// numbers and stand to the right.
+pub fn table<const N: usize>(head: [&str; N], words: usize, rows: &[[String; N]]) -> String {
+    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
+    let mut text = line(&head.map(escape));
+    let rule: [String; N] = std::array::from_fn(|column| {
+        let left = column == 0 || column + words >= N;
+        if left { ":---" } else { "---:" }.to_string()
+    });
+    text += &line(&rule);
+    for row in rows {
+        text += &line(&row.each_ref().map(|cell| escape(cell)));
+    }
+    text + "\n"
+}
+
+/// As typography has it.
+pub fn minus(text: String) -> String {
+    text.replace("e-", "e\u{2212}").replacen('-', "\u{2212}", usize::from(text.starts_with('-')))
+}
+
+/// A number of ours.
+pub fn value(value: f64) -> String {
+    minus(number(value))
+}
+
+/// A number as the paper prints it.
+fn printed(value: f64) -> String {
+    minus(if value != 0.0 && value.abs() < 1e-3 {
+        format!("{value:.3e}")
+    } else {
+        value.to_string()
+    })
+}
+
+/// A relative change.
+pub fn percent(change: f64) -> String {
+    let percent = 100.0 * change;
+    let digits = match percent.abs() {
+        100.0.. => 0,
+        1.0.. => 1,
+        _ => 2,
+    };
+    let text = format!("{percent:+.digits$}");
+    // What rounds to zero has no sign.
+    let zero = !text.contains(|c| matches!(c, '1'..='9'));
+    let text = if zero { text.replace(['+', '-'], "") } else { text };
+    text.replace('-', "\u{2212}") + " %"
+}
+
+pub fn complex([re, im]: [f64; 2]) -> String {
+    if im == 0.0 { value(re) } else { format!("{} ± {}i", value(re), value(im)) }
+}
+
+pub fn render(report: &Report) -> String {
+    let mut text = format!("# The paper's results beside ours\n\n{}\n\n", escape(PAPER));
+    text += &format!(
+        "Computed by ahv {}. All values in rad/s unless said otherwise; all quantities per metre of \
+         vehicle width. Difference is ours/paper \u{2212} 1: positive if ours is larger in size.\n\n",
+        report.version
+    );
+    text += &summary(report);
+    if let Some(table) = &report.table1 {
+        text += "## Table 1\n\nNatural frequencies depend on no coefficient set.\n\n";
+        text += &cells(table);
+    }
+    text += &figures(&report.figures);
+    for set in &report.sets {
+        text += &set_report(set, report.sets.len() > 1);
+    }
+    if !report.veering.is_empty() {
+        text += "## Slosh and beam: which mode is which\n\n![Veering](figures/veering.svg)\n\n";
+        text += &advice::structure(&report.veering);
+    }
+    for set in &report.sets {
+        if let Some(interaction) = &set.interaction {
+            text += &interaction_page(set.name, interaction, report);
+        }
+    }
+    if report.errata.is_some() {
+        text += &errata();
+    }
+    text
+}
+
+/// How the verdicts are spread.
+fn summary(report: &Report) -> String {
+    let row = |name: String, counts: [usize; 4]| -> [String; 5] {
+        let mut cells = vec![name];
+        cells.extend(counts.map(|count| count.to_string()));
+        cells.try_into().unwrap_or_default()
+    };
+    let cells = |table: &Table| count(table.cells.iter().map(|cell| &cell.verdict));
+    let mut rows = Vec::new();
+    if let Some(table) = &report.table1 {
+        rows.push(row("Table 1".into(), cells(table)));
+    }
+    for set in &report.sets {
+        for table in &set.tables {
+            rows.push(row(format!("Table {}, {}", table.number, set.name), cells(table)));
+        }
+        if !set.claims.is_empty() {
+            let counts = count(set.claims.iter().map(|claim| &claim.outcome.verdict));
+            rows.push(row(format!("Claims of figs 6 to 8, {}", set.name), counts));
+        }
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let [a, b, c, d] = RANKS;
+    format!("## Verdicts\n\n{}", table(["", a, b, c, d], 0, &rows))
+}
+
+fn cells(of: &Table) -> String {
+    let mut text = String::new();
+    for column in COLUMNS {
+        let rows: Vec<[String; 5]> = of
+            .cells
+            .iter()
+            .filter(|cell| cell.column == column)
+            .map(|cell| {
+                [
+                    cell.row.clone(),
+                    printed(cell.paper),
+                    cell.ours.map_or("none".into(), value),
+                    cell.difference.map_or(String::new(), percent),
+                    cell.verdict.text(),
+                ]
+            })
+            .collect();
+        if !rows.is_empty() {
+            text += &format!("**{column}**\n\n");
+            text += &table(["", "paper", "ours", "difference", "verdict"], 1, &rows);
+        }
+    }
+    if !of.unprinted.is_empty() {
+        let list: Vec<_> = of
+            .unprinted
+            .iter()
+            .map(|root| format!("{} {}", root.row, complex([root.re, root.im])))
+            .collect();
+        text += &format!("Not in the paper, sloshing mass: {}.\n\n", list.join("; "));
+    }
+    text
+}
+
+/// In full, once, what the cells say in two words.
+fn reasons(tables: &[Table]) -> String {
+    let mut text = "**The reasons in full**\n\n".to_string();
+    for (short, long) in REASONS {
+        let given = |cell: &Cell| cell.verdict.because() == Some(short);
+        if tables.iter().flat_map(|table| &table.cells).any(given) {
+            text += &format!("* *{}:* {}\n", escape(short), escape(long));
+        }
+    }
+    text + "\n"
+}
+
+fn figures(figures: &[Figure]) -> String {
+    let mut text = String::new();
+    for figure in figures {
+        text += &format!(
+            "## {}\n\n![{}](figures/{}.svg)\n\n{}\n\n",
+            figure.title,
+            escape(&figure.title),
+            figure.file,
+            escape(&figure.caption)
+        );
+    }
+    text
+}
+
+fn set_report(set: &SetReport, many: bool) -> String {
+    let mut text = String::new();
+    let about = if many { format!(" ({})", set.name) } else { String::new() };
+    if !(set.tables.is_empty() && set.claims.is_empty() && set.figures.is_empty()) {
+        text +=
+            &format!("## Coefficient set {}\n\n{}.\n\n", escape(set.name), escape(set.description));
+    }
+    for table in &set.tables {
+        text += &format!("## Table {}{about}\n\n{}\n\n", table.number, escape(table.title));
+        text += &cells(table);
+    }
+    if !set.tables.is_empty() {
+        text += &reasons(&set.tables);
+    }
+    text += &figures(&set.figures);
+    if !set.claims.is_empty() {
+        text += &format!("## Claims of figs 6 to 8{about}\n\n");
+        text += &claims(&set.claims);
+    }
+    text
+}
+
+fn claims(claims: &[Tested]) -> String {
+    let rows: Vec<[String; 4]> = claims
+        .iter()
+        .map(|claim| {
+            [
+                format!("({})", claim.id),
+                claim.source.to_string(),
+                claim.text.to_string(),
+                claim.outcome.verdict.text(),
+            ]
+        })
+        .collect();
+    let mut text = table(["", "where", "claim", "verdict"], 3, &rows);
+    let rows: Vec<[String; 5]> = claims
+        .iter()
+        .flat_map(|claim| {
+            claim.outcome.measures.iter().map(|measure| {
+                [
+                    format!("({})", claim.id),
+                    value(measure.start),
+                    value(measure.end),
+                    percent(measure.change),
+                    measure.what.clone(),
+                ]
+            })
+        })
+        .collect();
+    text += "The numbers behind them:\n\n";
+    text += &table(["", "start", "end", "change", "what"], 1, &rows);
+    text
+}
+
+fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> String {
+    let mut text = format!("## Slosh, beam and short period together: {}\n\n", escape(name));
+    text += &advice::coupling(interaction);
+    for order in &interaction.orders {
+        let rows: Vec<[String; 5]> = order
+            .roots
+            .iter()
+            .map(|root| {
+                [
+                    root.name.to_string(),
+                    root.kind.to_string(),
+                    complex(root.kept),
+                    root.dropped.map_or("gone".into(), complex),
+                    root.moved.map_or(String::new(), |moved| format!("{:.2} %", 100.0 * moved)),
+                ]
+            })
+            .collect();
+        text += &format!("**15 states and 11: {}**\n\n", order.title);
+        text += &table(["", "", "kept", "dropped", "moved by"], 0, &rows);
+    }
+    text += "**The real pair of zeros**\n\n";
+    let rows: Vec<[String; 4]> = interaction
+        .zeros
+        .iter()
+        .map(|zeros| [zeros.of.clone(), value(zeros.right), value(zeros.left), value(zeros.sum)])
+        .collect();
+    text += &table(["", "right", "left", "sum"], 0, &rows);
+    text += "**What a control designer should take from it**\n\n";
+    text += &advice::designer(interaction, &report.veering);
+    text
+}
+
+/// The errata, one level deeper than in their own file.
+fn errata() -> String {
+    ERRATA
+        .lines()
+        .map(|line| if line.starts_with('#') { format!("#{line}\n") } else { format!("{line}\n") })
+        .collect()
+}

@@ -1,0 +1,78 @@
+//! `cargo ahv reproduce`: every table, figure and claim of the paper beside ours, with a verdict.
+
+mod advice;
+mod claims;
+mod eigen;
+mod figures;
+mod html;
+mod interaction;
+mod markdown;
+mod point;
+mod published;
+mod report;
+mod roots;
+mod sets;
+mod sweep;
+mod tables;
+mod track;
+mod veering;
+mod verdict;
+mod work;
+
+use crate::cli;
+use crate::workspace::{read_text, shown, target, write};
+use anyhow::Result;
+use clap::ValueEnum;
+
+/// What a report can be made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// Natural frequencies
+    Table1,
+    /// Poles
+    Table2,
+    /// Zeros
+    Table3,
+    /// Bending stiffness
+    Fig3,
+    /// Mode shapes
+    Fig5,
+    /// Poles and zeros while fuel is burnt
+    Fig6,
+    /// The same over slosh damping
+    Fig7,
+    /// The same over slosh frequency
+    Fig8,
+    /// What the paper concludes
+    Claims,
+    /// Slosh, beam and short period together
+    Interaction,
+    /// What is wrong in the paper
+    Errata,
+}
+
+pub fn run(options: &cli::Reproduce) -> Result<()> {
+    let started = std::time::Instant::now();
+    let sets = sets::chosen(&options.aero)?;
+    let parts = match options.only.as_slice() {
+        [] => Part::value_variants(),
+        only => only,
+    };
+    let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
+    let report = work::Work::new(parts, directory.join("figures"))?.report(&sets)?;
+
+    let markdown = markdown::render(&report);
+    let svg = |link: &str| read_text(&directory.join(link)).ok();
+    let html = html::render(&markdown, "The paper's results beside ours", svg);
+    for (name, content) in [
+        ("report.html", html),
+        ("report.md", markdown),
+        ("report.json", format!("{:#}\n", serde_json::to_value(&report)?)),
+    ] {
+        let path = directory.join(name);
+        write(&path, content)?;
+        println!("{}", shown(&path));
+    }
+    println!("done in {:.1} s", started.elapsed().as_secs_f64());
+    Ok(())
+}

@@ -1,0 +1,53 @@
+//! The coefficient sets that a report is about.
+
+use ahv::flight::Flight;
+use ahv::variables::{Kind, find};
+use ahv::vehicle::AeroSet;
+use anyhow::{Result, bail};
+
+/// A coefficient set of eq. (4).
+#[derive(Debug, Clone, Copy)]
+pub struct Set {
+    pub name: &'static str,
+    /// What the table of variables says about it.
+    pub description: &'static str,
+    pub aero: AeroSet,
+}
+
+/// All sets that the FMU offers. Taken from its table of variables, so a new one appears here.
+fn all(flight: &Flight) -> Result<Vec<Set>> {
+    let Some(variable) = find("aero") else { bail!("the FMU has no parameter `aero`") };
+    let Kind::Enumeration(_, items) = variable.kind else { bail!("`aero` is no enumeration") };
+    items
+        .iter()
+        .map(|&(name, value, description)| {
+            let mut flight = flight.clone();
+            variable.set(&mut flight, f64::from(value))?;
+            Ok(Set { name, description, aero: flight.parameters().build.aero })
+        })
+        .collect()
+}
+
+/// The sets named; without a name that of the FMU.
+pub fn chosen(names: &[String]) -> Result<Vec<Set>> {
+    let flight = Flight::new()?;
+    let sets = all(&flight)?;
+    if names.is_empty() {
+        let default = flight.parameters().build.aero;
+        return Ok(sets.into_iter().filter(|set| set.aero == default).collect());
+    }
+    if names.iter().any(|name| name == "all") {
+        return Ok(sets);
+    }
+    let mut chosen: Vec<Set> = Vec::new();
+    for name in names {
+        let Some(set) = sets.iter().find(|set| set.name == name) else {
+            let known: Vec<_> = sets.iter().map(|set| set.name).collect();
+            bail!("--aero {name}: there is no such set; choose from {}, all", known.join(", "));
+        };
+        if chosen.iter().all(|known| known.name != set.name) {
+            chosen.push(*set);
+        }
+    }
+    Ok(chosen)
+}

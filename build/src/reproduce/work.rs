@@ -1,0 +1,202 @@
+//! Computes what a report needs, and nothing else.
+
+use super::claims::{Evidence, test};
+use super::figures::{loci, shapes, veering as veering_figure};
+use super::interaction::Interaction;
+use super::point::Point;
+use super::published::Published;
+use super::report::{ERRATA, Figure, PAPER, Report, SetReport};
+use super::sets::Set;
+use super::sweep::{Parameter, Sweep};
+use super::tables::{Table, table1, table2, table3};
+use super::veering::Veering;
+use super::{Part, claims};
+use crate::figure::{Drawing, write};
+use ahv::modes::Modes;
+use ahv::parameters::Parameters;
+use ahv::vehicle::{Build, Configuration, Data, structure};
+use anyhow::Result;
+use std::path::PathBuf;
+
+const CONFIGURATIONS: [Configuration; 3] =
+    [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+/// The sweeps with their figures.
+const SWEEPS: [(Parameter, Part, &str, &str); 3] = [
+    (Parameter::Fuel, Part::Fig6, "fig6", "Fig. 6: poles and zeros while fuel is burnt"),
+    (Parameter::Damping, Part::Fig7, "fig7", "Fig. 7: poles and zeros over slosh damping"),
+    (Parameter::Frequency, Part::Fig8, "fig8", "Fig. 8: poles and zeros over slosh frequency"),
+];
+
+pub struct Work<'a> {
+    parts: &'a [Part],
+    figures: PathBuf,
+    data: Data,
+    published: Published,
+    base: Build,
+}
+
+impl<'a> Work<'a> {
+    pub fn new(parts: &'a [Part], figures: PathBuf) -> Result<Self> {
+        let data = Data::embedded()?;
+        let base = Parameters::new(&data).build;
+        Ok(Self { parts, figures, data, published: Published::embedded()?, base })
+    }
+
+    fn wants(&self, parts: &[Part]) -> bool {
+        parts.iter().any(|part| self.parts.contains(part))
+    }
+
+    pub fn report(&self, sets: &[Set]) -> Result<Report> {
+        let mut table = None;
+        if self.wants(&[Part::Table1]) {
+            println!("table 1");
+            table = Some(self.table1()?);
+        }
+        let mut figures = Vec::new();
+        if self.wants(&[Part::Fig3]) {
+            figures.push(self.fig3()?);
+        }
+        if self.wants(&[Part::Fig5]) {
+            figures.push(self.fig5()?);
+        }
+        let mut veering = Vec::new();
+        if self.wants(&[Part::Interaction]) {
+            println!("veering of the modes: half and full tanks");
+            for fuel in [0.5, 1.0] {
+                veering.push(Veering::new(&self.data, &self.base, fuel)?);
+            }
+            self.draw(&veering_figure::Figure(&veering), veering_figure::SIZE, "veering")?;
+        }
+        Ok(Report {
+            paper: PAPER,
+            version: env!("CARGO_PKG_VERSION"),
+            table1: table,
+            figures,
+            veering,
+            sets: sets.iter().map(|set| self.set(set)).collect::<Result<_>>()?,
+            errata: self.wants(&[Part::Errata]).then_some(ERRATA),
+        })
+    }
+
+    fn points(&self, base: &Build) -> Result<[Point; 3]> {
+        let [rigid, even, slosh] = CONFIGURATIONS
+            .map(|configuration| Point::new(&self.data, &Build { configuration, ..*base }));
+        Ok([rigid?, even?, slosh?])
+    }
+
+    fn table1(&self) -> Result<Table> {
+        Ok(table1(&self.published.table1, &self.points(&self.base)?))
+    }
+
+    fn set(&self, set: &Set) -> Result<SetReport> {
+        let base = Build { aero: set.aero, ..self.base };
+        let mut report = SetReport {
+            name: set.name,
+            description: set.description,
+            tables: Vec::new(),
+            claims: Vec::new(),
+            figures: Vec::new(),
+            sweeps: Vec::new(),
+            interaction: None,
+        };
+        let mut points = None;
+        if self.wants(&[Part::Table2, Part::Table3, Part::Interaction]) {
+            println!("{}: tables 2 and 3", set.name);
+            points = Some(self.points(&base)?);
+        }
+        if let Some(points) = &points {
+            if self.wants(&[Part::Table2]) {
+                report.tables.push(table2(&self.published.table2, points));
+            }
+            if self.wants(&[Part::Table3]) {
+                report.tables.push(table3(&self.published.table3, points));
+            }
+        }
+        for (parameter, part, file, title) in SWEEPS {
+            let frequency = parameter == Parameter::Frequency && self.wants(&[Part::Interaction]);
+            if self.wants(&[part, Part::Claims]) || frequency {
+                let (from, to, steps) = parameter.range();
+                println!("{}: {parameter:?} from {from} to {to}, {} points", set.name, steps + 1);
+                report.sweeps.push(Sweep::new(&self.data, &base, parameter)?);
+            }
+            if let (true, Some(sweep)) = (self.wants(&[part]), report.sweeps.last()) {
+                let file = format!("{file}_{}", set.name);
+                self.draw(&loci::Loci(sweep), loci::SIZE, &file)?;
+                let title = format!("{title} ({})", set.name);
+                report.figures.push(Figure { file, title, caption: caption(sweep) });
+            }
+        }
+        if let ([fuel, damping, frequency], true) =
+            (report.sweeps.as_slice(), self.wants(&[Part::Claims]))
+        {
+            println!("{}: {} claims", set.name, claims::CLAIMS.len());
+            report.claims = test(&Evidence { fuel, damping, frequency });
+        }
+        if let (Some(points), true) = (&points, self.wants(&[Part::Interaction])) {
+            let sweep = report.sweeps.iter().find(|s| s.parameter == Parameter::Frequency);
+            if let Some(sweep) = sweep {
+                let interaction = Interaction::new(&self.data, &base, points, sweep)?;
+                report.interaction = Some(interaction);
+            }
+        }
+        Ok(report)
+    }
+
+    fn draw(&self, drawing: &impl Drawing, size: (u32, u32), file: &str) -> Result<()> {
+        println!("figures/{file}.svg, .png");
+        write(drawing, size, &self.figures.join(file))?;
+        Ok(())
+    }
+
+    fn fig3(&self) -> Result<Figure> {
+        let (beam, _) = structure(&self.data, &self.base)?;
+        let stiffness = shapes::Stiffness { data: &self.data.vehicle, beam: &beam };
+        let file = "fig3".to_string();
+        self.draw(&stiffness, shapes::STIFFNESS_SIZE, &file)?;
+        Ok(Figure {
+            file,
+            title: "Fig. 3: bending stiffness along the vehicle".into(),
+            caption:
+                "The paper's figure has no numbers. This is the smoothest stiffness that meets \
+                      both columns of Table 1; the ends are hardly determined (erratum 16)."
+                    .into(),
+        })
+    }
+
+    fn fig5(&self) -> Result<Figure> {
+        let build = |configuration| Build { configuration, ..self.base };
+        let (even, _) = structure(&self.data, &build(Configuration::EvenMassBeam))?;
+        let (beam, oscillators) = structure(&self.data, &build(Configuration::SloshBeam))?;
+        let [even, slosh] = [Modes::solve(&even, &[])?, Modes::solve(&beam, &oscillators)?];
+        let drawing = shapes::Shapes {
+            data: &self.data.vehicle,
+            even: &even,
+            slosh: &slosh,
+            beam: &beam,
+            oscillators: &oscillators,
+        };
+        let file = "fig5".to_string();
+        self.draw(&drawing, shapes::SHAPES_SIZE, &file)?;
+        Ok(Figure {
+            file,
+            title: "Fig. 5: the first three mode shapes".into(),
+            caption: "Full tanks. The sloshing mass hangs on the middle of its tank and nearly \
+                      stands still in space while the beam moves past it."
+                .into(),
+        })
+    }
+}
+
+fn caption(sweep: &Sweep) -> String {
+    let held = match sweep.parameter {
+        Parameter::Fuel => "Sloshing frequencies follow from depth and gravity.",
+        Parameter::Damping => "Half fuel; sloshing frequencies follow from depth and gravity.",
+        Parameter::Frequency => "Half fuel; both tanks at the same frequency.",
+    };
+    format!(
+        "{held} Panels (a) to (d) show the real part over the parameter, (e) to (h) the upper half \
+         of the s-plane. Open: start; filled: end. Branches are followed by what moves in them; the \
+         weakest link between two steps has a modal assurance of {:.3}.",
+        sweep.weakest_match
+    )
+}

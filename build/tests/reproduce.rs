@@ -1,0 +1,122 @@
+//! The report from outside, as a user asks for it.
+
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+use tempfile::TempDir;
+
+fn reproduce(directory: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ahv"))
+        .arg("reproduce")
+        .arg("--output")
+        .arg(directory)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn report(arguments: &[&str]) -> (TempDir, Value) {
+    let directory = TempDir::new().unwrap();
+    let output = reproduce(directory.path(), arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = fs::read_to_string(directory.path().join("report.json")).unwrap();
+    (directory, serde_json::from_str(&text).unwrap())
+}
+
+/// How many numbers the data file holds below a key.
+fn numbers(value: &toml::Value) -> usize {
+    match value {
+        toml::Value::Table(table) => table.values().map(numbers).sum(),
+        toml::Value::Array(array) => array.iter().map(numbers).sum(),
+        _ => 1,
+    }
+}
+
+#[test]
+fn every_printed_number_has_a_cell_with_a_verdict() {
+    let (_directory, json) = report(&["--only", "table1,table2,table3"]);
+    let printed: toml::Table =
+        include_str!("../../src/data/published.toml").parse().expect("valid TOML");
+    let tables = [&json["table1"], &json["sets"][0]["tables"][0], &json["sets"][0]["tables"][1]];
+    for (table, key) in tables.into_iter().zip(["table1", "table2", "table3"]) {
+        let cells = table["cells"].as_array().unwrap();
+        assert_eq!(cells.len(), numbers(&printed[key]), "{key}");
+        for cell in cells {
+            assert!(cell["verdict"].is_string() && cell["ours"].is_number(), "{cell}");
+        }
+    }
+}
+
+#[test]
+fn every_claim_is_answered_with_numbers() {
+    let (_directory, json) = report(&["--only", "claims"]);
+    let claims = json["sets"][0]["claims"].as_array().unwrap();
+    let ids: String = claims.iter().filter_map(|claim| claim["id"].as_str()).collect();
+    assert_eq!(ids, "abcdefghij");
+    for claim in claims {
+        assert!(claim["verdict"].is_string(), "{claim}");
+        let measures = claim["measures"].as_array().unwrap();
+        assert!(!measures.is_empty(), "{claim}");
+        for measure in measures {
+            for key in ["start", "end", "change"] {
+                assert!(measure[key].is_number(), "{measure}");
+            }
+        }
+    }
+}
+
+#[test]
+fn branches_are_whole_and_beyond_doubt() {
+    let (_directory, json) = report(&["--only", "claims"]);
+    let sweeps = json["sets"][0]["sweeps"].as_array().unwrap();
+    assert_eq!(sweeps.len(), 3);
+    for sweep in sweeps {
+        let steps = sweep["steps"].as_array().unwrap().len();
+        let count = |kind: &str| sweep[kind].as_array().unwrap().len();
+        assert_eq!((count("poles"), count("zeros")), (9, 8), "five pairs and the rigid body");
+        for branch in ["poles", "zeros"].iter().flat_map(|kind| sweep[kind].as_array().unwrap()) {
+            assert_eq!(branch["values"].as_array().unwrap().len(), steps, "{}", branch["name"]);
+        }
+        assert!(sweep["weakest_match"].as_f64().unwrap() > 0.9, "{}", sweep["weakest_match"]);
+    }
+}
+
+#[test]
+fn only_what_was_asked_for_is_made() {
+    let (directory, json) = report(&["--only", "fig6"]);
+    let exists = |name: &str| directory.path().join(name).exists();
+    let set = json["sets"][0]["name"].as_str().unwrap();
+    assert!(
+        exists(&format!("figures/fig6_{set}.svg")) && exists(&format!("figures/fig6_{set}.png"))
+    );
+    assert!(!exists(&format!("figures/fig7_{set}.svg")) && !exists("figures/fig3.svg"));
+    assert!(json.get("table1").is_none() && json.get("errata").is_none());
+}
+
+#[test]
+fn the_page_stands_alone() {
+    let (directory, _) = report(&["--only", "fig3,interaction,errata"]);
+    let html = fs::read_to_string(directory.path().join("report.html")).unwrap();
+    assert_eq!(html.matches("<svg").count(), 2);
+    for outside in ["src=", "href=\"h", "@import", "url("] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+    let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
+    assert!(markdown.contains("What a control designer should take from it"));
+    assert!(markdown.contains("## Errata"));
+}
+
+#[test]
+fn bad_names_are_refused_with_the_list() {
+    let directory = TempDir::new().unwrap();
+    for (arguments, known) in [
+        (["--only", "tabel2"], "table2"),
+        (["--only", "fig4"], "fig3"),
+        (["--aero", "parker"], "parker2007"),
+    ] {
+        let output = reproduce(directory.path(), &arguments);
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert!(!output.status.success() && text.contains(known), "{text}");
+    }
+}
