@@ -77,7 +77,9 @@ impl Means {
 
 /// The two strips and the elevator.
 fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surface; 3] {
-    let [elevator_lift, elevator_moment] = [aero.lift.delta_e[0], aero.moment.delta_e[0]];
+    let at = aero.elastic_delta_e;
+    let [elevator_lift, elevator_moment] =
+        [&aero.lift, &aero.moment].map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
         let own = f64::from(power == 1);
@@ -112,6 +114,12 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
     ]
 }
 
+/// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
+fn plume_station(aero: &Aero) -> Option<f64> {
+    let [lift, moment] = [&aero.lift_phi, &aero.moment_phi].map(|fit| fit.body(aero.elastic_alpha));
+    (lift != 0.0).then(|| aero.moment_centre - aero.chord * moment / lift)
+}
+
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
 /// `geometry` gives the fore-body and the nacelle; `mass_centre` is a station, m from the nose.
@@ -125,6 +133,7 @@ pub fn derive(
     let fore_body = geometry.fore_body_m.value;
     let engine = beam.point(fore_body + 0.5 * geometry.nacelle_m.value);
     let centre = beam.point(mass_centre);
+    let plume = plume_station(aero).map(|x| beam.point(x.clamp(0.0, beam.length_m())));
     let surfaces = surfaces(aero, beam, &modes.shape, fore_body);
     // Sum over the surfaces of lift slope times an average.
     let answer =
@@ -151,8 +160,9 @@ pub fn derive(
         };
         let mut force = ModalForce {
             alpha: std::array::from_fn(load),
-            delta_e: surfaces[2].slope * surfaces[2].mean.phi[i] * per_mass,
+            delta_e: aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass,
             thrust_across: modes.shape[i].w_at(&centre) * per_mass,
+            plume: plume.map_or(0.0, |place| modes.shape[i].w_at(&place) * per_mass),
             // Nose up and w up: the couple works on a falling slope.
             thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&engine) * per_mass,
             pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,

@@ -103,9 +103,15 @@ impl Vehicle {
         let per_speed = S::constant(1.0) / speed;
         let elastic = |term: &ElasticTerm| self.elastic_sum(term, x, per_speed);
 
-        let c_l = self.aero.lift.at(alpha, delta_e) + elastic(&self.elastic.lift);
-        let c_d = self.aero.drag.at(alpha, delta_e) + elastic(&self.elastic.drag);
-        let c_m = self.aero.moment.at(alpha, delta_e) + elastic(&self.elastic.moment);
+        let c_l = self.aero.lift.at(alpha, delta_e)
+            + phi * self.aero.lift_phi.body(alpha)
+            + elastic(&self.elastic.lift);
+        let c_d = self.aero.drag.at(alpha, delta_e)
+            + phi * self.aero.drag_phi.body(alpha)
+            + elastic(&self.elastic.drag);
+        let c_m = self.aero.moment.at(alpha, delta_e)
+            + phi * self.aero.moment_phi.body(alpha)
+            + elastic(&self.elastic.moment);
         let inflow = alpha + elastic(&self.elastic.inflow);
         let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
 
@@ -157,12 +163,15 @@ impl Vehicle {
         rates[4] = loads.moment * (1.0 / self.inertia);
 
         let force = loads.qbar * self.aero.area;
+        let elevator = self.aero.lift.elevator(u[0]);
+        let plume = u[1] * self.aero.lift_phi.body(alpha);
         for i in 0..self.modes {
             let n = &self.elastic.force[i];
             let [n_0, n_alpha, n_alpha2] = n.alpha;
             let generalised = (alpha * n_alpha2 + n_alpha) * alpha
                 + n_0
-                + u[0] * n.delta_e
+                + elevator * n.delta_e
+                + plume * n.plume
                 + q * per_speed * n.pitch_rate
                 + self.elastic_sum(&n.elastic, x, per_speed);
             let mut damping = S::constant(0.0);

@@ -1,6 +1,9 @@
 //! The numbers of the vehicle, read from `src/data`: each with value, unit, source and status.
 
+mod shape;
 mod validate;
+
+pub use shape::{EngineData, Outline};
 
 use serde::Deserialize;
 
@@ -10,6 +13,8 @@ pub const VEHICLE_TOML: &str = include_str!("data/vehicle.toml");
 pub const EARTH_TOML: &str = include_str!("data/earth.toml");
 /// Text of `aero/parker2007.toml`.
 pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
+/// Text of `aero/shock_expansion.toml`.
+pub const SHOCK_EXPANSION_TOML: &str = include_str!("data/aero/shock_expansion.toml");
 
 /// How far a number can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -55,6 +60,10 @@ pub struct VehicleData {
     pub tank: [TankData; 2],
     /// Limits of the controls.
     pub actuation: Actuation,
+    /// Outer shape of the first-principles model.
+    pub outline: Outline,
+    /// Engine of the first-principles model.
+    pub engine: EngineData,
     /// Start values of the parameters.
     pub default: Defaults,
 }
@@ -201,6 +210,12 @@ pub struct AeroData {
     pub thrust: PolynomialData,
     /// C_T per fuel equivalence ratio.
     pub thrust_phi: PolynomialData,
+    /// C_L per fuel equivalence ratio: the plume lifts the aft-body.
+    pub lift_phi: Option<PolynomialData>,
+    /// C_D per fuel equivalence ratio.
+    pub drag_phi: Option<PolynomialData>,
+    /// C_M per fuel equivalence ratio, without the thrust.
+    pub moment_phi: Option<PolynomialData>,
     /// Where the fits hold.
     pub envelope: EnvelopeData,
 }
@@ -219,6 +234,8 @@ pub struct Reference {
     pub thrust_arm_m: Quantity,
     /// Incidence at which the elastic derivatives are taken, rad.
     pub elastic_alpha_rad: Quantity,
+    /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
+    pub elastic_delta_e_rad: Option<Quantity>,
 }
 
 /// Inertia and damping of a coefficient set.
@@ -247,6 +264,10 @@ pub struct PolynomialData {
     pub delta_e: Option<Quantity>,
     /// Per rad^2 of elevator deflection.
     pub delta_e2: Option<Quantity>,
+    /// Per rad^3 of elevator deflection.
+    pub delta_e3: Option<Quantity>,
+    /// Per rad of incidence and rad of elevator deflection.
+    pub alpha_delta_e: Option<Quantity>,
 }
 
 /// Lower and upper limits of validity.

@@ -7,7 +7,10 @@ use crate::beam::{Beam, Oscillator};
 use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
-use crate::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
+use crate::params::{
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
+    VehicleData,
+};
 use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
 
@@ -27,6 +30,8 @@ pub enum Configuration {
 pub enum AeroSet {
     /// Published rigid part, derived elastic part.
     Parker2007 = 2,
+    /// Regression of the first-principles model.
+    ShockExpansion = 3,
 }
 
 /// What shapes a vehicle.
@@ -55,6 +60,8 @@ pub struct Data {
     pub earth: EarthData,
     /// Published coefficient set.
     pub parker2007: AeroData,
+    /// Coefficient set fitted to the first-principles model.
+    pub shock_expansion: AeroData,
 }
 
 impl Data {
@@ -67,6 +74,7 @@ impl Data {
             vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
             earth: EarthData::parse("earth.toml", EARTH_TOML)?,
             parker2007: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
+            shock_expansion: AeroData::parse("aero/shock_expansion.toml", SHOCK_EXPANSION_TOML)?,
         })
     }
 
@@ -74,6 +82,7 @@ impl Data {
     pub fn aero(&self, set: AeroSet) -> &AeroData {
         match set {
             AeroSet::Parker2007 => &self.parker2007,
+            AeroSet::ShockExpansion => &self.shock_expansion,
         }
     }
 }

@@ -9,7 +9,7 @@ use ahv::linear::Linear;
 use ahv::scalar::Dual;
 use ahv::trim::{Condition, trim};
 use ahv::vehicle::Configuration;
-use model::{CONFIGURATIONS, build, data, deviation, flight, vehicle};
+use model::{CONFIGURATIONS, builds, data, deviation, flight, vehicle};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.
@@ -27,10 +27,10 @@ fn disturbed(vehicle: &Vehicle, scale: [f64; STATES]) -> State {
 
 #[test]
 fn verif_trim_leaves_no_acceleration() {
-    for configuration in CONFIGURATIONS {
+    for build in builds() {
         for fuel_fraction in [0.0, 0.3, 1.0] {
             for mach in [7.0, 8.0, 9.0] {
-                let build = ahv::vehicle::Build { fuel_fraction, ..build(configuration) };
+                let build = ahv::vehicle::Build { fuel_fraction, ..build };
                 let vehicle = Vehicle::new(&data(), &build).unwrap();
                 let condition = Condition { mach, ..build.condition };
                 let trimmed = trim(&vehicle, &condition).unwrap();
@@ -40,7 +40,7 @@ fn verif_trim_leaves_no_acceleration() {
                     let size = if i < 5 { 10.0 } else { 1e4 };
                     assert!(
                         rate.abs() < STEADY * size,
-                        "{configuration:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
+                        "{build:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
                     );
                 }
             }
@@ -83,8 +83,8 @@ proptest! {
     #[test]
     fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform15(-1.0..1.0_f64)) {
         // alpha' + gamma' = q: the sign missing in the printed eq. (3).
-        for configuration in CONFIGURATIONS {
-            let vehicle = vehicle(configuration);
+        for build in builds() {
+            let vehicle = Vehicle::new(&data(), &build).unwrap();
             let x = disturbed(&vehicle, scale);
             let rates = vehicle.derivatives(&x, &[0.1, 0.3]);
             prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
@@ -94,8 +94,8 @@ proptest! {
 
     #[test]
     fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform15(-1.0..1.0_f64)) {
-        for configuration in CONFIGURATIONS {
-            let vehicle = vehicle(configuration);
+        for build in builds() {
+            let vehicle = Vehicle::new(&data(), &build).unwrap();
             let (x, u) = (disturbed(&vehicle, scale), [0.1, 0.3]);
             let linear = Linear::new(&vehicle, &x, &u);
             let n = vehicle.states();
@@ -121,7 +121,7 @@ proptest! {
                     let floor = (one.0[row].abs() + 1e-3) / size;
                     prop_assert!(
                         deviation(difference, exact, floor) < DIFFERENCES,
-                        "{configuration:?} ({row}, {column}): {difference} against {exact}"
+                        "{build:?} ({row}, {column}): {difference} against {exact}"
                     );
                 }
             }
@@ -131,8 +131,8 @@ proptest! {
 
 #[test]
 fn verif_dual_numbers_carry_the_plain_value() {
-    for configuration in CONFIGURATIONS {
-        let vehicle = vehicle(configuration);
+    for build in builds() {
+        let vehicle = Vehicle::new(&data(), &build).unwrap();
         let x = disturbed(&vehicle, [0.3; STATES]);
         let dual = vehicle.derivatives(
             &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),

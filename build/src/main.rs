@@ -4,6 +4,7 @@ mod cli;
 mod describe;
 mod documentation;
 mod figure;
+mod fit;
 mod fly;
 mod fmu;
 mod licenses;
@@ -43,6 +44,7 @@ fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Describe(options) => describe::run(&options),
         Command::Package(options) => package::run(&options),
+        Command::Fit(options) => fit::run(&options),
         Command::Fly(options) => fly::run(&options),
         Command::Modes(options) => modes::run(&options),
         Command::Trim(options) => trim::run(&options),

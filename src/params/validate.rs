@@ -9,6 +9,8 @@ use serde::Deserialize;
 const SHARES_ADD_UP: f64 = 1e-9;
 /// Below, three bending modes have no nodes to live on; above, no one needs it.
 const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
+/// A surface steeper than 45 deg is no slender body.
+const STEEPEST: [f64; 2] = [0.0, core::f64::consts::FRAC_PI_4];
 
 fn parse<T: for<'a> Deserialize<'a>>(file: &str, text: &str) -> Result<T, Error> {
     toml::from_str(text).map_err(|error| {
@@ -36,6 +38,10 @@ impl Check<'_> {
 
     fn positive(&self, key: &str, value: f64) -> Result<(), Error> {
         self.that(value > 0.0 && value.is_finite(), key, || format!("{value} must be positive"))
+    }
+
+    fn finite(&self, key: &str, value: f64) -> Result<(), Error> {
+        self.that(value.is_finite(), key, || format!("{value} must be finite"))
     }
 
     fn inside(&self, key: &str, value: f64, [min, max]: [f64; 2]) -> Result<(), Error> {
@@ -69,7 +75,32 @@ impl VehicleData {
         data.check_tanks(&check, length)?;
         check.positive("actuation.delta_e_limit_rad", data.actuation.delta_e_limit_rad.value)?;
         check.positive("actuation.phi_limit", data.actuation.phi_limit.value)?;
+        data.check_outline(&check, length)?;
+        data.check_engine(&check)?;
         Ok(data)
+    }
+
+    fn check_outline(&self, check: &Check, length: f64) -> Result<(), Error> {
+        let outline = &self.outline;
+        check.inside("outline.lower_angle_rad", outline.lower_angle_rad.value, STEEPEST)?;
+        check.inside("outline.upper_angle_rad", outline.upper_angle_rad.value, STEEPEST)?;
+        let station = outline.elevator_station_m.value;
+        check.inside("outline.elevator_station_m", station, [0.0, length])?;
+        check.finite("outline.elevator_height_m", outline.elevator_height_m.value)?;
+        check.finite("outline.moment_height_m", outline.moment_height_m.value)?;
+        check.positive("outline.elevator_area_m2_per_m", outline.elevator_area_m2_per_m.value)
+    }
+
+    fn check_engine(&self, check: &Check) -> Result<(), Error> {
+        let engine = &self.engine;
+        check.positive("engine.duct_height_m", engine.duct_height_m.value)?;
+        let ratio = engine.nozzle_area_ratio.value;
+        check.that(ratio >= 1.0 && ratio.is_finite(), "engine.nozzle_area_ratio", || {
+            format!("{ratio} must be 1 or more")
+        })?;
+        check.positive("engine.heating_value_j_per_kg", engine.heating_value_j_per_kg.value)?;
+        check.positive("engine.stoichiometric_ratio", engine.stoichiometric_ratio.value)?;
+        check.inside("engine.combustion_efficiency", engine.combustion_efficiency.value, [0.0, 1.0])
     }
 
     fn check_mass(&self, check: &Check, length: f64) -> Result<(), Error> {

@@ -52,8 +52,8 @@ const PHI: u32 = 1 << (STATES + 1);
 const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
-/// What the aerodynamic forces depend on.
-const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E;
+/// What the aerodynamic forces depend on; on the fuel through the plume under the aft-body.
+const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E | PHI;
 
 const ROW: Variable = Variable {
     name: "",
@@ -174,7 +174,10 @@ const CONFIGURATION: Kind = Kind::Enumeration(
 );
 const AERO: Kind = Kind::Enumeration(
     "Aero",
-    &[("parker2007", 2, "Published rigid-body fits, derived elastic terms")],
+    &[
+        ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
+        ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
+    ],
 );
 const INPUT_MODE: Kind = Kind::Enumeration(
     "InputMode",
@@ -203,14 +206,14 @@ pub static TABLE: [Variable; 67] = [
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
     output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
-    output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC | PHI), |f| shown(f, |s| s.outputs.loads.moment)),
+    output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.moment)),
     output("mach", ONE, "Mach number", dependent(V | H), |f| shown(f, |s| s.outputs.loads.mach)),
     output("qbar", PRESSURE, "Dynamic pressure", dependent(V | H), |f| shown(f, |s| s.outputs.loads.qbar)),
     output("n_z", ONE, "Normal load factor at the mass centre, in g", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.n_z)),
     output("delta_e_effective", ANGLE, "Elevator deflection in effect, absolute, after saturation", dependent(DELTA_E), |f| shown(f, |s| s.control[0])),
     output("phi_effective", ONE, "Fuel equivalence ratio in effect, absolute, after saturation", dependent(PHI), |f| shown(f, |s| s.control[1])),
     parameter("configuration", CONFIGURATION, None, "Which parts of the vehicle can move", |f| f.parameters().build.configuration as i32 as f64, |f, v| f.change(|p| p.build.configuration = match v as i32 { 1 => Configuration::Rigid, 2 => Configuration::EvenMassBeam, _ => Configuration::SloshBeam })),
-    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, _| f.change(|p| p.build.aero = AeroSet::Parker2007)),
+    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, v| f.change(|p| p.build.aero = match v as i32 { 3 => AeroSet::ShockExpansion, _ => AeroSet::Parker2007 })),
     parameter("fuel_fraction", Kind::Real(ONE), Some([0.0, 1.0]), "Propellant left", |f| f.parameters().build.fuel_fraction, |f, v| f.change(|p| p.build.fuel_fraction = v)),
     parameter("slosh_damping", Kind::Real(ONE), Some([0.0, 1.0]), "Damping ratio of the sloshing masses", |f| f.parameters().build.slosh_damping, |f, v| f.change(|p| p.build.slosh_damping = v)),
     parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs, 0.1 rad/s and more; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
@@ -239,21 +242,21 @@ pub static TABLE: [Variable; 67] = [
     local_state(12, "eta_slosh1_dot", SPEED, "Rate of the first slosh mode", |f| f.state()[12]),
     local_state(13, "eta_slosh2", METRE, "Second slosh mode, as the larger displacement of a sloshing mass", |f| f.state()[13]),
     local_state(14, "eta_slosh2_dot", SPEED, "Rate of the second slosh mode", |f| f.state()[14]),
-    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 0)),
+    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 0)),
     derivative(1, "der(h)", SPEED, dependent(V | GAMMA), |f| rate(f, 1)),
-    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 2)),
-    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
-    derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
+    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 2)),
+    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA) }, |f| rate(f, 3)),
+    derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 4)),
     derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
-    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 6)),
+    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
     derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
-    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 8)),
+    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
     derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
-    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 10)),
+    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
     derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
-    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 12)),
+    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
-    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q | PHI), |f| rate(f, 14)),
+    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {

@@ -4,10 +4,12 @@
 use ahv::dynamics::Vehicle;
 use ahv::flight::Flight;
 use ahv::parameters::Parameters;
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::vehicle::{AeroSet, Build, Configuration, Data};
 
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+
+pub const AERO_SETS: [AeroSet; 2] = [AeroSet::Parker2007, AeroSet::ShockExpansion];
 
 pub fn data() -> Data {
     Data::embedded().expect("the embedded data are valid")
@@ -20,6 +22,13 @@ pub fn build(configuration: Configuration) -> Build {
 
 pub fn vehicle(configuration: Configuration) -> Vehicle {
     Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+}
+
+/// The default builds of all configurations with all coefficient sets.
+pub fn builds() -> impl Iterator<Item = Build> {
+    CONFIGURATIONS
+        .into_iter()
+        .flat_map(|configuration| AERO_SETS.map(|aero| Build { aero, ..build(configuration) }))
 }
 
 /// A trimmed default flight.

@@ -1,6 +1,7 @@
 //! How each claim is tested: direction first, then size.
 
 use super::{Evidence, Measure, Outcome};
+use crate::reproduce::markdown::percent;
 use crate::reproduce::roots::Name;
 use crate::reproduce::sweep::{Branch, Sweep};
 use crate::reproduce::verdict::Verdict;
@@ -32,10 +33,6 @@ fn measure(what: &str, branch: &Branch, part: Part, steps: [usize; 2]) -> Measur
 
 fn whole(sweep: &Sweep) -> [usize; 2] {
     [0, sweep.steps.len() - 1]
-}
-
-fn percent(change: f64) -> String {
-    format!("{:+.1} %", 100.0 * change)
 }
 
 /// The poles of some names, over some steps.
