@@ -91,7 +91,7 @@ def test_verif_discarded_flight_can_be_reset(package: Package) -> None:
 
 @pytest.mark.parametrize(
     ("start", "limit"),
-    [({"alpha0": 0.5}, "alpha"), ({"mach0": 3.0}, "mach"), ({"altitude0": 80e3}, "h =")],
+    [({"alpha0": 0.5}, "alpha0"), ({"mach0": 3.0}, "mach0"), ({"altitude0": 80e3}, "altitude0")],
     ids=lambda value: value if isinstance(value, str) else next(iter(value)),
 )
 def test_verif_start_outside_the_envelope_is_refused(
