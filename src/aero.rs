@@ -101,6 +101,8 @@ pub struct Aero {
     pub thrust_arm: f64,
     /// Incidence of the elastic derivatives, rad.
     pub elastic_alpha: f64,
+    /// Factor on all elastic terms.
+    pub elastic_scale: f64,
     /// C_L.
     pub lift: Polynomial,
     /// C_D.
@@ -124,6 +126,7 @@ impl Aero {
             moment_centre: data.reference.moment_centre_m.value,
             thrust_arm: data.reference.thrust_arm_m.value,
             elastic_alpha: data.reference.elastic_alpha_rad.value,
+            elastic_scale: data.reference.elastic_scale.value,
             lift: Polynomial::new(&data.lift),
             drag: Polynomial::new(&data.drag),
             moment: Polynomial::new(&data.moment),

@@ -26,9 +26,8 @@ struct Surface {
     mean: Means,
 }
 
-/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products; x from the
-/// moment centre.
-#[derive(Default)]
+/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products.
+#[derive(Debug, Clone, Copy, Default)]
 struct Means {
     x: f64,
     phi: [f64; MODES],
@@ -40,17 +39,12 @@ struct Means {
 }
 
 impl Means {
-    /// Averages over places whose weights add up to `total`.
-    fn over(
-        points: impl Iterator<Item = Point>,
-        total: f64,
-        shapes: &[Shape],
-        moment_centre: f64,
-    ) -> Self {
+    /// Averages over places whose weights add up to `total`; x from the nose.
+    fn over(points: impl Iterator<Item = Point>, total: f64, shapes: &[Shape]) -> Self {
         let mut mean = Self::default();
         let (mut phi, mut slope) = ([0.0; MODES], [0.0; MODES]);
         for point in points {
-            let (weight, x) = (point.weight / total, point.x - moment_centre);
+            let (weight, x) = (point.weight / total, point.x);
             for (i, shape) in shapes.iter().enumerate() {
                 phi[i] = shape.w_at(&point);
                 slope[i] = shape.slope_at(&point);
@@ -69,10 +63,35 @@ impl Means {
         }
         mean
     }
+
+    /// The same with x from `centre`.
+    fn about(mut self, centre: f64) -> Self {
+        self.x -= centre;
+        for i in 0..MODES {
+            self.x_phi[i] -= centre * self.phi[i];
+            self.x_slope[i] -= centre * self.slope[i];
+        }
+        self
+    }
+}
+
+/// The two strips of the body with their averages: all that takes an integration over the beam.
+#[derive(Debug, Clone)]
+pub struct Strips {
+    fore: Means,
+    aft: Means,
+}
+
+impl Strips {
+    /// Cuts the beam at the end of the fore-body (m).
+    pub fn new(beam: &Beam, modes: &Modes, fore_body: f64) -> Self {
+        let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
+        Self { fore: strip(0.0, fore_body), aft: strip(fore_body, beam.length_m()) }
+    }
 }
 
 /// The two strips and the elevator.
-fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surface; 3] {
+fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
     let [elevator_lift, elevator_moment] = [aero.lift.delta_e[0], aero.moment.delta_e[0]];
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
@@ -82,11 +101,7 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
             aero.moment.alpha[power] - own * elevator_moment,
         ]
     });
-    let strip = |from: f64, to: f64| {
-        let points = beam.gauss_points(from, to);
-        Means::over(points, to - from, shapes, aero.moment_centre)
-    };
-    let [fore, aft] = [strip(0.0, fore_body), strip(fore_body, beam.length_m())];
+    let [fore, aft] = [strips.fore, strips.aft].map(|strip| strip.about(aero.moment_centre));
     // c_1 + c_2 = C_L and -(x_1 c_1 + x_2 c_2) = chord C_M.
     let split = body.map(|[lift, moment]| {
         let first = (lift * aft.x + moment * aero.chord) / (aft.x - fore.x);
@@ -94,7 +109,7 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
     });
     let mut place = beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
     place.weight = 1.0;
-    let elevator = Means::over([place].into_iter(), 1.0, shapes, aero.moment_centre);
+    let elevator = Means::over([place].into_iter(), 1.0, shapes).about(aero.moment_centre);
 
     let surface = |load: [f64; 3], mean: Means| Surface {
         load,
@@ -110,18 +125,20 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
-/// `fore_body` (m) is the length of the fore-body, `mass_centre` its station from the nose (m).
+/// `mass_centre` is its station from the nose (m).
 pub fn derive(
     aero: &Aero,
     beam: &Beam,
     modes: &Modes,
-    fore_body: f64,
+    strips: &Strips,
     mass_centre: f64,
 ) -> Elastic {
-    let surfaces = surfaces(aero, beam, &modes.shape, fore_body);
+    let surfaces = surfaces(aero, beam, &modes.shape, strips);
     // Sum over the surfaces of lift slope times an average.
-    let answer =
-        |f: &dyn Fn(&Means) -> f64| surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>();
+    let scale = aero.elastic_scale;
+    let answer = |f: &dyn Fn(&Means) -> f64| {
+        surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>() * scale
+    };
     let drag_per_lift = aero.drag.slope(aero.elastic_alpha) / aero.lift.slope(aero.elastic_alpha);
     let shift = mass_centre - aero.moment_centre;
 
@@ -135,8 +152,8 @@ pub fn derive(
         elastic.drag.eta[i] = drag_per_lift * elastic.lift.eta[i];
         elastic.drag.rate[i] = drag_per_lift * elastic.lift.rate[i];
         // The engine swallows what the fore-body has turned.
-        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i];
-        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i];
+        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i] * scale;
+        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i] * scale;
 
         let per_mass = 1.0 / modes.modal_mass[i];
         let load = |power: usize| {

@@ -2,6 +2,7 @@
 
 mod validate;
 
+use crate::modes::FLEXIBLE;
 use serde::Deserialize;
 
 /// Text of `vehicle.toml`.
@@ -10,6 +11,9 @@ pub const VEHICLE_TOML: &str = include_str!("data/vehicle.toml");
 pub const EARTH_TOML: &str = include_str!("data/earth.toml");
 /// Text of `aero/parker2007.toml`.
 pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
+
+/// Text of `aero/xu2015.toml`.
+pub const XU2015_TOML: &str = include_str!("data/aero/xu2015.toml");
 
 /// How far a number can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -217,6 +221,8 @@ pub struct Reference {
     pub thrust_arm_m: Quantity,
     /// Incidence at which the elastic derivatives are taken, rad.
     pub elastic_alpha_rad: Quantity,
+    /// Factor on all elastic terms; 1 as they are derived.
+    pub elastic_scale: Quantity,
 }
 
 /// Inertia and damping of a coefficient set.
@@ -225,8 +231,8 @@ pub struct Reference {
 pub struct Inertia {
     /// Pitch inertia of the full vehicle, kg m^2 per metre of width.
     pub i_yy_kg_m2_per_m: Quantity,
-    /// Damping ratio of the structure.
-    pub structural_damping: Quantity,
+    /// Damping ratio of the structure in each flexible mode.
+    pub structural_damping: Quantity<[f64; FLEXIBLE]>,
 }
 
 /// A polynomial in incidence and elevator deflection; what is not given is zero.

@@ -1,9 +1,9 @@
 //! From data and parameters to a vehicle that can fly.
 
 use crate::aero::Aero;
-use crate::aeroelastic::derive;
+use crate::aeroelastic::{Strips, derive};
 use crate::atmosphere::Atmosphere;
-use crate::beam::{Beam, Oscillator};
+use crate::beam::{Beam, MassProperties, Oscillator};
 use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
@@ -106,17 +106,24 @@ pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), 
     Ok((beam, oscillators))
 }
 
-impl Vehicle {
-    /// Puts a vehicle together.
-    ///
-    /// The published inertia is that of the full vehicle; with less propellant it falls as the
-    /// beam's own inertia does.
+/// What a build does not owe to its coefficient set: beam, sloshing masses and modes.
+#[derive(Debug, Clone)]
+pub struct Body {
+    beam: Beam,
+    oscillators: Vec<Oscillator>,
+    modes: Modes,
+    strips: Strips,
+    properties: MassProperties,
+    /// Pitch inertia over that of the full vehicle.
+    inertia_left: f64,
+}
+
+impl Body {
+    /// Assembles the beam and solves for its modes.
     ///
     /// # Errors
     /// [`Error`] if the tanks give no frequency or the modes cannot be found.
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        let set = data.aero(build.aero);
-        let aero = Aero::new(set);
         let (beam, oscillators) = structure(data, build)?;
         let properties = beam.mass_properties(&oscillators);
         let full = {
@@ -127,6 +134,29 @@ impl Vehicle {
             Configuration::Rigid => Modes::default(),
             _ => Modes::solve(&beam, &oscillators)?,
         };
+        let inertia_left = properties.inertia / full.inertia;
+        let strips = Strips::new(&beam, &modes, data.vehicle.geometry.fore_body_m.value);
+        Ok(Self { beam, oscillators, modes, strips, properties, inertia_left })
+    }
+}
+
+impl Vehicle {
+    /// Puts a vehicle together.
+    ///
+    /// # Errors
+    /// [`Error`] if the tanks give no frequency or the modes cannot be found.
+    pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
+        let body = Body::new(data, build)?;
+        Ok(Self::with_body(data, build, &body, data.aero(build.aero)))
+    }
+
+    /// The vehicle of a build with any coefficient set around its body.
+    ///
+    /// The set's inertia is that of the full vehicle; with less propellant it falls as the beam's
+    /// own inertia does.
+    pub fn with_body(data: &Data, build: &Build, body: &Body, set: &AeroData) -> Self {
+        let Body { beam, oscillators, modes, strips, properties, inertia_left } = body;
+        let aero = Aero::new(set);
         // A force m g up on each sloshing mass and down on its tank.
         let gravity = effective_gravity(data, &build.condition);
         let floor = std::array::from_fn(|i| {
@@ -134,23 +164,22 @@ impl Vehicle {
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
             if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
         });
-        let fore_body = data.vehicle.geometry.fore_body_m.value;
-        Ok(Self {
+        Self {
             atmosphere: Atmosphere::new(&data.earth),
             aero,
-            elastic: derive(&aero, &beam, &modes, fore_body, properties.centre_m),
+            elastic: derive(&aero, beam, modes, strips, properties.centre_m),
             mass: properties.mass,
-            inertia: set.inertia.i_yy_kg_m2_per_m.value * properties.inertia / full.inertia,
+            inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
             mass_centre: properties.centre_m,
             modes: modes.count,
             omega: modes.omega_rad_per_s,
-            damping: modes.damping(&oscillators, set.inertia.structural_damping.value),
+            damping: modes.damping(oscillators, &set.inertia.structural_damping.value),
             floor,
             slosh: modes.slosh_displacement,
             limits: [
                 data.vehicle.actuation.delta_e_limit_rad.value,
                 data.vehicle.actuation.phi_limit.value,
             ],
-        })
+        }
     }
 }

@@ -5,7 +5,7 @@
 mod model;
 
 use ahv::aero::{Aero, Elastic};
-use ahv::aeroelastic::derive;
+use ahv::aeroelastic::{Strips, derive};
 use ahv::beam::Beam;
 use ahv::hermite::Shape;
 use ahv::modes::Modes;
@@ -37,7 +37,8 @@ fn rigid_motions() -> Case {
         Modes { count: 2, modal_mass: [1.0; 5], shape: vec![heave, pitch], ..Modes::default() };
     let centre = aero.moment_centre;
     let fore_body = data.vehicle.geometry.fore_body_m.value;
-    Case { aero, elastic: derive(&aero, &beam, &modes, fore_body, centre), centre }
+    let strips = Strips::new(&beam, &modes, fore_body);
+    Case { aero, elastic: derive(&aero, &beam, &modes, &strips, centre), centre }
 }
 
 #[test]

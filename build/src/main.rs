@@ -5,6 +5,7 @@ mod describe;
 mod documentation;
 mod fly;
 mod fmu;
+mod identify;
 mod licenses;
 mod manoeuvre;
 mod master;
@@ -38,6 +39,7 @@ fn main() -> ExitCode {
         Command::Trim(options) => trim::run(&options),
         Command::Poles(options) => poles::run(&options),
         Command::Methods(options) => methods::run(&options),
+        Command::Identify(options) => identify::run(&options),
         Command::Test(options) => test::run(&options),
     };
     match result {

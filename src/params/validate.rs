@@ -149,6 +149,10 @@ impl AeroData {
         check.positive("reference.area_m2_per_m", data.reference.area_m2_per_m.value)?;
         check.positive("reference.chord_m", data.reference.chord_m.value)?;
         check.positive("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value)?;
+        check.positive("reference.elastic_scale", data.reference.elastic_scale.value)?;
+        for ratio in data.inertia.structural_damping.value {
+            check.inside("inertia.structural_damping", ratio, [0.0, 1.0])?;
+        }
         // The elastic terms are derived from loads that are quadratic in the incidence.
         for (key, fit) in [("lift.alpha3", &data.lift), ("moment.alpha3", &data.moment)] {
             check.that(fit.alpha3.is_none(), key, || "lift and moment must be quadratic".into())?;
