@@ -7,7 +7,9 @@ use crate::beam::{Beam, MassProperties, Oscillator};
 use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
-use crate::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
+use crate::params::{
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData, XU2015_TOML,
+};
 use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
 
@@ -25,6 +27,8 @@ pub enum Configuration {
 /// Coefficient set of eq. (4). The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AeroSet {
+    /// Published set, moved as little as possible towards Tables 2 and 3.
+    Xu2015 = 1,
     /// Published rigid part, derived elastic part.
     Parker2007 = 2,
 }
@@ -53,6 +57,8 @@ pub struct Data {
     pub vehicle: VehicleData,
     /// Gravity and air.
     pub earth: EarthData,
+    /// Identified coefficient set.
+    pub xu2015: AeroData,
     /// Published coefficient set.
     pub parker2007: AeroData,
 }
@@ -66,6 +72,7 @@ impl Data {
         Ok(Self {
             vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
             earth: EarthData::parse("earth.toml", EARTH_TOML)?,
+            xu2015: AeroData::parse("aero/xu2015.toml", XU2015_TOML)?,
             parker2007: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
         })
     }
@@ -73,6 +80,7 @@ impl Data {
     /// The data of a coefficient set.
     pub fn aero(&self, set: AeroSet) -> &AeroData {
         match set {
+            AeroSet::Xu2015 => &self.xu2015,
             AeroSet::Parker2007 => &self.parker2007,
         }
     }

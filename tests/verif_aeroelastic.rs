@@ -124,5 +124,5 @@ fn verif_the_full_build_scales_inertia_with_fuel() {
     let dry = 1.0 - data().vehicle.mass.propellant_fraction.value;
     assert!(empty.mass < 0.36 * full.mass && empty.mass > dry * full.mass);
     assert!(empty.inertia < 0.6 * full.inertia && empty.inertia > 0.3 * full.inertia);
-    assert_eq!(full.inertia, data().parker2007.inertia.i_yy_kg_m2_per_m.value);
+    assert_eq!(full.inertia, data().xu2015.inertia.i_yy_kg_m2_per_m.value);
 }

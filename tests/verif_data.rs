@@ -1,7 +1,9 @@
 //! The data files: what they must hold, and how a wrong one is refused.
 #![allow(missing_docs)]
 
-use ahv::params::{AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData};
+use ahv::params::{
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData, XU2015_TOML,
+};
 
 /// Unit that a key's suffix promises; keys without one are plain numbers.
 const SUFFIXES: [(&str, &str); 15] = [
@@ -40,7 +42,7 @@ fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str,
 
 #[test]
 fn verif_every_number_has_unit_source_and_status() {
-    for text in [VEHICLE_TOML, EARTH_TOML, PARKER2007_TOML] {
+    for text in [VEHICLE_TOML, EARTH_TOML, XU2015_TOML, PARKER2007_TOML] {
         let mut count = 0;
         for_each_number(&text.parse().unwrap(), "", &mut |path, number| {
             count += 1;

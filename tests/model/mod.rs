@@ -4,8 +4,9 @@
 use ahv::dynamics::Vehicle;
 use ahv::flight::Flight;
 use ahv::parameters::Parameters;
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::vehicle::{AeroSet, Build, Configuration, Data};
 
+pub const AERO_SETS: [AeroSet; 2] = [AeroSet::Xu2015, AeroSet::Parker2007];
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
 
@@ -20,6 +21,12 @@ pub fn build(configuration: Configuration) -> Build {
 
 pub fn vehicle(configuration: Configuration) -> Vehicle {
     Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+}
+
+/// The vehicle with a coefficient set of choice.
+pub fn vehicle_with(aero: AeroSet, configuration: Configuration) -> Vehicle {
+    let build = Build { aero, ..build(configuration) };
+    Vehicle::new(&data(), &build).expect("the default vehicle can be built")
 }
 
 /// A trimmed default flight.
