@@ -30,13 +30,13 @@ fn xu2015(options: &Identify) -> Result<()> {
             print!("{}", report.text()?);
         }
     }
-    settle(options, "src/data/aero/xu2015.toml", &text)
+    settle(options, "xu2015", "src/data/aero/xu2015.toml", &text)
 }
 
 /// Writes a file of the repository, or compares it with what would be written.
-fn settle(options: &Identify, name: &str, text: &str) -> Result<()> {
+fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
     let file = root().join(name);
-    let tell = |what: &str| eprintln!("{} {what}", shown(&file));
+    let tell = |done: &str| eprintln!("{} {done}", shown(&file));
     if !options.check {
         write(&file, text)?;
         tell("is written");
@@ -50,7 +50,7 @@ fn settle(options: &Identify, name: &str, text: &str) -> Result<()> {
     let line = found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
     let at = |text: &str| text.lines().nth(line).unwrap_or("(end of file)").to_string();
     bail!(
-        "{}, line {}: not what comes out; run `cargo ahv identify` and commit the result\n  \
+        "{}, line {}: not what comes out; run `cargo ahv identify {what}` and commit the result\n  \
          found:    {}\n  expected: {}",
         shown(&file),
         line + 1,

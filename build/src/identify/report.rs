@@ -98,8 +98,8 @@ impl<'a> Report<'a> {
         let mut text = String::from(
             "Misfit: sum over the cells of (relative error / wanted accuracy)^2\n\
              Distance from parker2007: sum over the numbers of (ln ratio / doubt)^2\n\n\
-             Trade-off: misfit + weight x distance is least; the knee is the first sharpest\n\
-             bend of ln misfit over ln distance; what follows fits better and means less\n",
+             Trade-off: misfit + weight x distance is least; the knee is the first\n\
+             sharpest bend of ln misfit over ln distance; \"unbound\" is the last line\n",
         );
         text += &self.trade_off();
         text += "\nMoved numbers, factors on parker2007; a number that would move by less than 1 % stays\n";
@@ -130,8 +130,7 @@ impl<'a> Report<'a> {
                 mark.to_string(),
             ]);
         }
-        let chosen = [self.chosen.distance(), self.chosen.misfit()].map(number);
-        let [distance, misfit] = chosen;
+        let [distance, misfit] = [self.chosen.distance(), self.chosen.misfit()].map(number);
         rows.push(vec!["xu2015".into(), distance, misfit, String::new(), String::new()]);
         table(&rows)
     }
