@@ -5,13 +5,15 @@ use crate::modes::MODES;
 use crate::params::{AeroData, PolynomialData};
 use crate::scalar::Scalar;
 
-/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 in incidence a and elevator deflection d, rad.
+/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 + d3 d^3 + e a d in incidence a and elevator deflection d, rad.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Polynomial {
     /// Coefficients of a^0 to a^3.
     pub alpha: [f64; 4],
-    /// Coefficients of d and d^2.
-    pub delta_e: [f64; 2],
+    /// Coefficients of d to d^3.
+    pub delta_e: [f64; 3],
+    /// Coefficient of a d.
+    pub cross: f64,
 }
 
 impl Polynomial {
@@ -25,7 +27,8 @@ impl Polynomial {
                 value(&data.alpha2),
                 value(&data.alpha3),
             ],
-            delta_e: [value(&data.delta_e), value(&data.delta_e2)],
+            delta_e: [value(&data.delta_e), value(&data.delta_e2), value(&data.delta_e3)],
+            cross: value(&data.alpha_delta_e),
         }
     }
 
@@ -39,8 +42,16 @@ impl Polynomial {
     /// Whole polynomial.
     #[inline]
     pub fn at<S: Scalar>(&self, alpha: S, delta_e: S) -> S {
-        let [d1, d2] = self.delta_e;
-        self.body(alpha) + (delta_e * d2 + d1) * delta_e
+        let [d1, d2, d3] = self.delta_e;
+        self.body(alpha) + ((delta_e * d3 + d2) * delta_e + alpha * self.cross + d1) * delta_e
+    }
+
+    /// The elevator's own part, odd in the deflection, over its slope at zero, rad.
+    #[inline]
+    pub fn elevator<S: Scalar>(&self, delta_e: S) -> S {
+        let [d1, _, d3] = self.delta_e;
+        let bend = if d3 == 0.0 { 0.0 } else { d3 / d1 };
+        (delta_e * delta_e * bend + 1.0) * delta_e
     }
 
     /// d/da of the body part, per rad.
@@ -60,17 +71,24 @@ pub struct ElasticTerm {
     pub rate: [f64; MODES],
 }
 
-/// Generalised aerodynamic force of one mode over qbar S, m (mode shapes are dimensionless).
+/// Generalised force on one mode: aerodynamic terms over qbar S, thrust terms over the thrust; mode
+/// shapes are dimensionless, and both are divided by the modal mass.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ModalForce {
     /// N^0, N^alpha, N^alpha2: the rigid body's load, as a polynomial in the incidence.
     pub alpha: [f64; 3],
-    /// N^delta_e, per rad.
+    /// N^delta_e, per rad; the modal force is to this as the elevator's lift to its slope at zero.
     pub delta_e: f64,
+    /// Of the lift that the plume adds, C_L,phi phi.
+    pub plume: f64,
     /// N^eta and its rate term.
     pub elastic: ElasticTerm,
     /// Per q/V, m.
     pub pitch_rate: f64,
+    /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
+    pub thrust_across: f64,
+    /// Of the thrust's couple, T z_T, which acts at the nacelle.
+    pub thrust_couple: f64,
 }
 
 /// Elastic terms of eq. (4) for one set of modes.
@@ -103,6 +121,8 @@ pub struct Aero {
     pub elastic_alpha: f64,
     /// Factor on all elastic terms.
     pub elastic_scale: f64,
+    /// Elevator deflection of the elastic derivatives, rad.
+    pub elastic_delta_e: f64,
     /// C_L.
     pub lift: Polynomial,
     /// C_D.
@@ -113,6 +133,12 @@ pub struct Aero {
     pub thrust: Polynomial,
     /// dC_T/dphi.
     pub thrust_phi: Polynomial,
+    /// dC_L/dphi, in the incidence.
+    pub lift_phi: Polynomial,
+    /// dC_D/dphi.
+    pub drag_phi: Polynomial,
+    /// dC_M/dphi, without thrust.
+    pub moment_phi: Polynomial,
     /// Where all this holds.
     pub envelope: Envelope,
 }
@@ -120,6 +146,9 @@ pub struct Aero {
 impl Aero {
     /// The run-time form of a data file.
     pub fn new(data: &AeroData) -> Self {
+        let optional = |fit: &Option<PolynomialData>| {
+            fit.as_ref().map_or_else(Polynomial::default, Polynomial::new)
+        };
         Self {
             area: data.reference.area_m2_per_m.value,
             chord: data.reference.chord_m.value,
@@ -127,11 +156,15 @@ impl Aero {
             thrust_arm: data.reference.thrust_arm_m.value,
             elastic_alpha: data.reference.elastic_alpha_rad.value,
             elastic_scale: data.reference.elastic_scale.value,
+            elastic_delta_e: data.reference.elastic_delta_e_rad.as_ref().map_or(0.0, |q| q.value),
             lift: Polynomial::new(&data.lift),
             drag: Polynomial::new(&data.drag),
             moment: Polynomial::new(&data.moment),
             thrust: Polynomial::new(&data.thrust),
             thrust_phi: Polynomial::new(&data.thrust_phi),
+            lift_phi: optional(&data.lift_phi),
+            drag_phi: optional(&data.drag_phi),
+            moment_phi: optional(&data.moment_phi),
             envelope: Envelope {
                 alpha: data.envelope.alpha_rad.value,
                 mach: data.envelope.mach.value,

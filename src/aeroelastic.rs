@@ -10,11 +10,15 @@
 //! a pitch rate by q (x - x_cg)/V. Strip and elevator answer with their lift slope at one
 //! reference incidence. The pitch rate enters the modal forces only: the published rigid part has
 //! no q-derivatives, and eq. (4) has none.
+//!
+//! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
+//! the air, and a beam that feels one without the other seems to spin.
 
 use crate::aero::{Aero, Elastic, ModalForce};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
+use crate::params::Geometry;
 
 /// A part of the body that answers to local incidence.
 struct Surface {
@@ -80,19 +84,28 @@ impl Means {
 pub struct Strips {
     fore: Means,
     aft: Means,
+    /// Middle of the nacelle.
+    engine: Point,
 }
 
 impl Strips {
-    /// Cuts the beam at the end of the fore-body (m).
-    pub fn new(beam: &Beam, modes: &Modes, fore_body: f64) -> Self {
+    /// Cuts the beam at the end of the fore-body.
+    pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
+        let cut = geometry.fore_body_m.value;
         let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
-        Self { fore: strip(0.0, fore_body), aft: strip(fore_body, beam.length_m()) }
+        Self {
+            fore: strip(0.0, cut),
+            aft: strip(cut, beam.length_m()),
+            engine: beam.point(cut + 0.5 * geometry.nacelle_m.value),
+        }
     }
 }
 
 /// The two strips and the elevator.
 fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
-    let [elevator_lift, elevator_moment] = [aero.lift.delta_e[0], aero.moment.delta_e[0]];
+    let at = aero.elastic_delta_e;
+    let [elevator_lift, elevator_moment] =
+        [&aero.lift, &aero.moment].map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
         let own = f64::from(power == 1);
@@ -123,6 +136,12 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Sur
     ]
 }
 
+/// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
+fn plume_station(aero: &Aero) -> Option<f64> {
+    let [lift, moment] = [&aero.lift_phi, &aero.moment_phi].map(|fit| fit.body(aero.elastic_alpha));
+    (lift != 0.0).then(|| aero.moment_centre - aero.chord * moment / lift)
+}
+
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
 /// `mass_centre` is its station from the nose (m).
@@ -133,6 +152,8 @@ pub fn derive(
     strips: &Strips,
     mass_centre: f64,
 ) -> Elastic {
+    let centre = beam.point(mass_centre);
+    let plume = plume_station(aero).map(|x| beam.point(x.clamp(0.0, beam.length_m())));
     let surfaces = surfaces(aero, beam, &modes.shape, strips);
     // Sum over the surfaces of lift slope times an average.
     let scale = aero.elastic_scale;
@@ -161,7 +182,11 @@ pub fn derive(
         };
         let mut force = ModalForce {
             alpha: std::array::from_fn(load),
-            delta_e: surfaces[2].slope * surfaces[2].mean.phi[i] * per_mass,
+            delta_e: aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass,
+            thrust_across: modes.shape[i].w_at(&centre) * per_mass,
+            plume: plume.map_or(0.0, |place| modes.shape[i].w_at(&place) * per_mass),
+            // Nose up and w up: the couple works on a falling slope.
+            thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&strips.engine) * per_mass,
             pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,
             ..ModalForce::default()
         };

@@ -26,7 +26,7 @@ pub struct Atmosphere {
 }
 
 /// The standard has seven layers below 84.852 km.
-const MAX_LAYERS: usize = 8;
+pub const MAX_LAYERS: usize = 8;
 
 /// Air at one altitude.
 #[derive(Debug, Clone, Copy)]

@@ -17,7 +17,7 @@ pub const STATES: usize = RIGID + 2 * MODES;
 pub const INPUTS: usize = 2;
 /// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
-    [1e3, 1e4, 0.01, 0.01, 0.01, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1, 0.01, 0.1];
+    [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
 
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];
@@ -103,9 +103,15 @@ impl Vehicle {
         let per_speed = S::constant(1.0) / speed;
         let elastic = |term: &ElasticTerm| self.elastic_sum(term, x, per_speed);
 
-        let c_l = self.aero.lift.at(alpha, delta_e) + elastic(&self.elastic.lift);
-        let c_d = self.aero.drag.at(alpha, delta_e) + elastic(&self.elastic.drag);
-        let c_m = self.aero.moment.at(alpha, delta_e) + elastic(&self.elastic.moment);
+        let c_l = self.aero.lift.at(alpha, delta_e)
+            + phi * self.aero.lift_phi.body(alpha)
+            + elastic(&self.elastic.lift);
+        let c_d = self.aero.drag.at(alpha, delta_e)
+            + phi * self.aero.drag_phi.body(alpha)
+            + elastic(&self.elastic.drag);
+        let c_m = self.aero.moment.at(alpha, delta_e)
+            + phi * self.aero.moment_phi.body(alpha)
+            + elastic(&self.elastic.moment);
         let inflow = alpha + elastic(&self.elastic.inflow);
         let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
 
@@ -157,21 +163,25 @@ impl Vehicle {
         rates[4] = loads.moment * (1.0 / self.inertia);
 
         let force = loads.qbar * self.aero.area;
+        let elevator = self.aero.lift.elevator(u[0]);
+        let plume = u[1] * self.aero.lift_phi.body(alpha);
         for i in 0..self.modes {
             let n = &self.elastic.force[i];
             let [n_0, n_alpha, n_alpha2] = n.alpha;
             let generalised = (alpha * n_alpha2 + n_alpha) * alpha
                 + n_0
-                + u[0] * n.delta_e
+                + elevator * n.delta_e
+                + plume * n.plume
                 + q * per_speed * n.pitch_rate
                 + self.elastic_sum(&n.elastic, x, per_speed);
             let mut damping = S::constant(0.0);
             for k in 0..self.modes {
                 damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
             }
+            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] = force * generalised + self.floor[i]
+            rates[eta_dot] = force * generalised + engine + self.floor[i]
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }

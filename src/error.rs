@@ -36,7 +36,7 @@ pub enum Error {
     },
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
-        "no trim at mach0 = {mach}, altitude0 = {altitude_m} m: {limit} \
+        "no trim at mach0 = {mach}, altitude0 = {altitude_m} m, gamma0 = {gamma_rad} rad: {limit} \
          (largest residual {residual:.3e}); choose another flight condition or set trim = false"
     )]
     Trim {
@@ -44,18 +44,20 @@ pub enum Error {
         mach: f64,
         /// Altitude asked for, m.
         altitude_m: f64,
-        /// Largest scaled residual of the trim equations where the search ended.
+        /// Flight-path angle asked for, rad.
+        gamma_rad: f64,
+        /// Largest scaled residual of the trim equations, with the unknowns cut to their limits.
         residual: f64,
         /// The limit that was hit, with the value that broke it.
         limit: String,
     },
-    /// The flight left the region in which the curve fits hold, or met the ground.
+    /// The flight reached the edge of the region in which the curve fits hold.
     #[error(
-        "{variable} = {value} left its valid range [{min}, {max}] at t = {time_s} s; \
-         the state is the one of that instant"
+        "{variable} = {value:.6} reached the edge of its valid range [{min:.6}, {max:.6}] at \
+         t = {time_s} s; beyond it the curve fits mean nothing, so the flight ends there"
     )]
     Envelope {
-        /// Name of the variable that left its range.
+        /// Name of the variable at the edge of its range.
         variable: &'static str,
         /// Its value at the last valid instant, in the unit of the variable table.
         value: f64,

@@ -93,6 +93,19 @@ fn left(vehicle: &Vehicle, state: &State, time_s: f64) -> Error {
     Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
 
+/// Start values without trim, by the names of their parameters.
+fn start_outside(vehicle: &Vehicle, state: &State) -> Error {
+    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
+    let variable = match tightest.variable {
+        "h" => "altitude0",
+        "mach" => "mach0",
+        _ => "alpha0",
+    };
+    let [min, max] = tightest.limits;
+    let expected = format!("the curve fits hold in [{min:.6}, {max:.6}]");
+    Error::Value { variable: variable.into(), value: tightest.value, expected }
+}
+
 impl Flight {
     /// A flight on the ground: default parameters, zero inputs.
     ///
@@ -169,7 +182,7 @@ impl Flight {
     /// Builds the vehicle and finds the initial state. Does nothing if that is done already.
     ///
     /// # Errors
-    /// [`Error::Trim`] if there is no trim, [`Error::Envelope`] if the start values lie outside the
+    /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
     /// region where the curve fits hold.
     pub fn initialise(&mut self) -> Result<(), Error> {
         if self.ready.is_some() {
@@ -187,7 +200,7 @@ impl Flight {
                 state[RIGID + 2 * i] = eta;
             }
             if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &state) {
-                return Err(left(&vehicle, &state, self.time));
+                return Err(start_outside(&vehicle, &state));
             }
             Trim { state, control: [0.0; 2] }
         };
@@ -242,7 +255,8 @@ impl Flight {
             &DOP853,
             &held,
             &mut self.state,
-            [self.time, end],
+            // Counted from here, so that a late start costs no digits.
+            [0.0, end - self.time],
             &mut self.slope,
         );
         self.sample = None;
@@ -251,13 +265,13 @@ impl Flight {
                 self.time = end;
                 Ok(())
             }
-            Arrival::Left(time) => {
-                self.time = time;
-                Err(left(&ready.vehicle, &self.state, time))
+            Arrival::Left(flown) => {
+                self.time += flown;
+                Err(left(&ready.vehicle, &self.state, self.time))
             }
-            Arrival::Stuck(time) => {
-                self.time = time;
-                Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: time })
+            Arrival::Stuck(flown) => {
+                self.time += flown;
+                Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
             }
         }
     }

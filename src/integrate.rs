@@ -53,8 +53,10 @@ const SAFETY: f64 = 0.9;
 /// Largest fall and rise of the step from one to the next (Hairer, Norsett, Wanner, Solving
 /// Ordinary Differential Equations I, 2nd ed., section II.4).
 const FACTORS: [f64; 2] = [0.2, 6.0];
-/// A step this small against the interval (or one second) makes no progress in double precision.
+/// A step shorter than this, s, or than the resolution of time below, makes no progress.
 const SMALLEST: f64 = 1e-13;
+/// Roundings of the time that a step must be worth.
+const ROUNDINGS: f64 = 8.0;
 /// The instant at which the model ceases to hold is located to this length, s.
 const EXIT_RESOLUTION: f64 = 1e-9;
 
@@ -77,7 +79,6 @@ impl Integrator {
         [start, end]: [f64; 2],
         first: &mut Option<[f64; N]>,
     ) -> Arrival {
-        let smallest = SMALLEST * (end - start).max(1.0);
         let mut t = start;
         // First instant at which the model is known not to hold.
         let mut invalid = f64::INFINITY;
@@ -87,14 +88,15 @@ impl Integrator {
             let remaining = target - t;
             let pieces = libm::ceil(remaining / self.proposal).max(1.0);
             let (mut h, last) = (remaining / pieces, pieces == 1.0);
+            let resolution = ROUNDINGS * f64::EPSILON * t.abs();
             if invalid <= end {
-                if remaining < EXIT_RESOLUTION {
+                if remaining < EXIT_RESOLUTION.max(4.0 * resolution) {
                     *first = Some(slope);
                     return Arrival::Left(t);
                 }
                 h = h.min(0.5 * remaining);
             }
-            if h < smallest && h < remaining {
+            if h < SMALLEST.max(resolution) && h < remaining {
                 *first = Some(slope);
                 return Arrival::Stuck(t);
             }
@@ -114,7 +116,8 @@ impl Integrator {
                 continue;
             }
             if !system.holds(&next) {
-                invalid = t + h;
+                // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
+                invalid = target.min(t + h);
                 continue;
             }
             // A step cut by the interval's end says nothing against the longer proposal.

@@ -10,6 +10,8 @@
 //! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
 //! | [`aero`], [`envelope`] | curve fits at run time, and where they hold | eq. (4) |
 //! | [`aeroelastic`] | where the elastic terms come from | eq. (4) |
+//! | [`gas`] | shocks, expansions, heat addition, ducts | NACA Report 1135 |
+//! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
@@ -32,6 +34,7 @@ pub mod envelope;
 pub mod error;
 pub mod flight;
 pub mod fmi;
+pub mod gas;
 pub mod hermite;
 pub mod integrate;
 pub mod linear;
@@ -39,6 +42,7 @@ pub mod modes;
 pub mod parameters;
 pub mod params;
 pub mod scalar;
+pub mod shock_expansion;
 pub mod slosh;
 pub mod trim;
 pub mod variables;

@@ -1,8 +1,11 @@
 //! The numbers of the vehicle, read from `src/data`: each with value, unit, source and status.
 
+mod shape;
 mod validate;
 
 use crate::modes::FLEXIBLE;
+pub use shape::{EngineData, Outline};
+
 use serde::Deserialize;
 
 /// Text of `vehicle.toml`.
@@ -11,6 +14,8 @@ pub const VEHICLE_TOML: &str = include_str!("data/vehicle.toml");
 pub const EARTH_TOML: &str = include_str!("data/earth.toml");
 /// Text of `aero/parker2007.toml`.
 pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
+/// Text of `aero/shock_expansion.toml`.
+pub const SHOCK_EXPANSION_TOML: &str = include_str!("data/aero/shock_expansion.toml");
 
 /// Text of `aero/xu2015.toml`.
 pub const XU2015_TOML: &str = include_str!("data/aero/xu2015.toml");
@@ -59,6 +64,10 @@ pub struct VehicleData {
     pub tank: [TankData; 2],
     /// Limits of the controls.
     pub actuation: Actuation,
+    /// Outer shape of the first-principles model.
+    pub outline: Outline,
+    /// Engine of the first-principles model.
+    pub engine: EngineData,
     /// Start values of the parameters.
     pub default: Defaults,
 }
@@ -71,6 +80,8 @@ pub struct Geometry {
     pub length_m: Quantity,
     /// Length of the fore-body, m.
     pub fore_body_m: Quantity,
+    /// Length of the nacelle, which follows the fore-body, m.
+    pub nacelle_m: Quantity,
 }
 
 /// Mass of the full vehicle and the propellant's part in it.
@@ -203,6 +214,12 @@ pub struct AeroData {
     pub thrust: PolynomialData,
     /// C_T per fuel equivalence ratio.
     pub thrust_phi: PolynomialData,
+    /// C_L per fuel equivalence ratio: the plume lifts the aft-body.
+    pub lift_phi: Option<PolynomialData>,
+    /// C_D per fuel equivalence ratio.
+    pub drag_phi: Option<PolynomialData>,
+    /// C_M per fuel equivalence ratio, without the thrust.
+    pub moment_phi: Option<PolynomialData>,
     /// Where the fits hold.
     pub envelope: EnvelopeData,
 }
@@ -223,6 +240,8 @@ pub struct Reference {
     pub elastic_alpha_rad: Quantity,
     /// Factor on all elastic terms; 1 as they are derived.
     pub elastic_scale: Quantity,
+    /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
+    pub elastic_delta_e_rad: Option<Quantity>,
 }
 
 /// Inertia and damping of a coefficient set.
@@ -251,6 +270,10 @@ pub struct PolynomialData {
     pub delta_e: Option<Quantity>,
     /// Per rad^2 of elevator deflection.
     pub delta_e2: Option<Quantity>,
+    /// Per rad^3 of elevator deflection.
+    pub delta_e3: Option<Quantity>,
+    /// Per rad of incidence and rad of elevator deflection.
+    pub alpha_delta_e: Option<Quantity>,
 }
 
 /// Lower and upper limits of validity.

@@ -49,6 +49,10 @@ pub fn propellant_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
     data.mass.propellant_fraction.value * full_mass_kg_per_m(data) * filling(data, fuel_fraction)
 }
 
+/// Slowest frequency that can be asked for, rad/s. A slower spring is so soft that what the kept
+/// modes leave of the static loads moves the liquid by metres.
+pub const SLOWEST_RAD_PER_S: f64 = 0.1;
+
 /// Where the sloshing frequency and its damping come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SloshSettings {
@@ -92,6 +96,16 @@ impl SloshingTank {
         fuel_fraction: f64,
         settings: &SloshSettings,
     ) -> Result<[Self; 2], Error> {
+        let asked = settings.frequency_rad_per_s;
+        if asked > 0.0 && asked < SLOWEST_RAD_PER_S {
+            return Err(Error::Value {
+                variable: "slosh_frequency".into(),
+                value: asked,
+                expected: format!(
+                    "0 for the tanks' own frequencies, or {SLOWEST_RAD_PER_S} and more"
+                ),
+            });
+        }
         let gravity = settings.gravity_m_per_s2;
         if settings.frequency_rad_per_s <= 0.0 && gravity <= 0.0 {
             return Err(Error::Value {

@@ -7,7 +7,7 @@ use crate::modes::MODES;
 use crate::scalar::Dual;
 use nalgebra::{SMatrix, SVector};
 
-/// Flight condition to be held: speed (m/s), altitude (m), flight-path angle (rad).
+/// Flight condition to be held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
     /// Mach number.
@@ -117,41 +117,43 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
     let impossible = |limit: String, residual: f64| Error::Trim {
         mach: condition.mach,
         altitude_m: condition.altitude,
+        gamma_rad: condition.gamma,
         residual,
         limit,
     };
     let envelope = &vehicle.aero.envelope;
+    let conditions = [
+        ("mach0", condition.mach, envelope.mach, ""),
+        ("altitude0", condition.altitude, envelope.altitude, " m"),
+    ];
+    let mut hit = conditions.into_iter().find_map(|(name, value, [min, max], unit)| {
+        (!(min..=max).contains(&value))
+            .then(|| format!("{name} = {value}{unit} is beyond [{min}, {max}]"))
+    });
     let [elevator, fuel] = vehicle.limits;
-    let mut limited = solution;
-    let mut hit = None;
     let unknowns = [
         ("alpha", envelope.alpha, " rad"),
         ("delta_e", [-elevator, elevator], " rad"),
         ("phi", [0.0, fuel], ""),
     ];
+    let steady = best < STEADY;
+    let mut limited = solution;
     for (i, (name, [min, max], unit)) in unknowns.into_iter().enumerate() {
-        if !(solution[i] >= min && solution[i] <= max) {
-            hit.get_or_insert_with(|| {
-                format!("{name} = {:.4}{unit} is beyond [{min:.4}, {max:.4}]", solution[i])
-            });
+        if !(min..=max).contains(&solution[i]) {
             limited[i] = solution[i].clamp(min, max);
+            // Where the search did not end, its last point says nothing.
+            if steady && hit.is_none() {
+                let value = solution[i];
+                hit = Some(format!("{name} = {value:.4}{unit} is beyond [{min:.4}, {max:.4}]"));
+            }
         }
     }
-    let conditions = [
-        ("mach0", condition.mach, envelope.mach, ""),
-        ("altitude0", condition.altitude, envelope.altitude, " m"),
-    ];
-    for (name, value, [min, max], unit) in conditions {
-        if !(value >= min && value <= max) {
-            hit = Some(format!("{name} = {value}{unit} is beyond [{min}, {max}]"));
-        }
+    if hit.is_none() && !steady {
+        hit = Some("the equations have no solution near steady flight".into());
     }
     if let Some(limit) = hit {
         let (value, _) = residual(vehicle, &start, &limited);
         return Err(impossible(limit, value.amax()));
-    }
-    if best.is_nan() || best >= STEADY {
-        return Err(impossible("the equations have no solution near level flight".into(), best));
     }
 
     let mut state = start;

@@ -8,7 +8,8 @@ use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
 use crate::params::{
-    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData, XU2015_TOML,
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
+    VehicleData, XU2015_TOML,
 };
 use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
@@ -31,6 +32,8 @@ pub enum AeroSet {
     Xu2015 = 1,
     /// Published rigid part, derived elastic part.
     Parker2007 = 2,
+    /// Regression of the first-principles model.
+    ShockExpansion = 3,
 }
 
 /// What shapes a vehicle.
@@ -61,6 +64,8 @@ pub struct Data {
     pub xu2015: AeroData,
     /// Published coefficient set.
     pub parker2007: AeroData,
+    /// Coefficient set fitted to the first-principles model.
+    pub shock_expansion: AeroData,
 }
 
 impl Data {
@@ -74,6 +79,7 @@ impl Data {
             earth: EarthData::parse("earth.toml", EARTH_TOML)?,
             xu2015: AeroData::parse("aero/xu2015.toml", XU2015_TOML)?,
             parker2007: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
+            shock_expansion: AeroData::parse("aero/shock_expansion.toml", SHOCK_EXPANSION_TOML)?,
         })
     }
 
@@ -82,9 +88,13 @@ impl Data {
         match set {
             AeroSet::Xu2015 => &self.xu2015,
             AeroSet::Parker2007 => &self.parker2007,
+            AeroSet::ShockExpansion => &self.shock_expansion,
         }
     }
 }
+
+/// Least gravity, over gravity at rest, for which a vehicle is put together.
+const WEIGHTLESS: f64 = 1e-3;
 
 /// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
 /// steady flight.
@@ -92,7 +102,9 @@ fn effective_gravity(data: &Data, condition: &Condition) -> f64 {
     let atmosphere = Atmosphere::new(&data.earth);
     let start = condition.start(&atmosphere);
     let (gravity, distance) = atmosphere.gravity(start[1]);
-    (gravity - start[0] * start[0] / distance) * libm::cos(start[2])
+    let felt = (gravity - start[0] * start[0] / distance) * libm::cos(start[2]);
+    // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
+    felt.max(WEIGHTLESS * gravity)
 }
 
 /// The beam of a configuration with the sloshing masses on it.
@@ -143,7 +155,7 @@ impl Body {
             _ => Modes::solve(&beam, &oscillators)?,
         };
         let inertia_left = properties.inertia / full.inertia;
-        let strips = Strips::new(&beam, &modes, data.vehicle.geometry.fore_body_m.value);
+        let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
         Ok(Self { beam, oscillators, modes, strips, properties, inertia_left })
     }
 }

@@ -90,7 +90,7 @@ fn leaving_the_envelope_discards_with_the_last_valid_instant() {
     let point = slave.leave_envelope();
     let record = slave.message();
     assert_eq!((record.status, record.category.as_str()), (Status::Discard, "logStatusDiscard"));
-    assert!(record.message.contains("left its valid range"), "{}", record.message);
+    assert!(record.message.contains("reached the edge of its valid range"), "{}", record.message);
     let time = slave.last_successful_time();
     assert!(time >= point && time < point + 0.0625, "{time}");
     assert!(slave.wants_to_end());

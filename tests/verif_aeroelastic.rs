@@ -9,7 +9,7 @@ use ahv::aeroelastic::{Strips, derive};
 use ahv::beam::Beam;
 use ahv::hermite::Shape;
 use ahv::modes::Modes;
-use ahv::vehicle::Configuration;
+use ahv::vehicle::{Configuration, structure};
 use model::{assert_close, build, data, vehicle};
 
 /// Sums over 2,000 quadrature points.
@@ -36,8 +36,7 @@ fn rigid_motions() -> Case {
     let modes =
         Modes { count: 2, modal_mass: [1.0; 5], shape: vec![heave, pitch], ..Modes::default() };
     let centre = aero.moment_centre;
-    let fore_body = data.vehicle.geometry.fore_body_m.value;
-    let strips = Strips::new(&beam, &modes, fore_body);
+    let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
     Case { aero, elastic: derive(&aero, &beam, &modes, &strips, centre), centre }
 }
 
@@ -75,6 +74,28 @@ fn verif_loads_add_up_to_the_published_lift_and_moment() {
 }
 
 #[test]
+fn verif_thrust_works_on_rigid_motions_as_on_the_rigid_body() {
+    let Case { aero, elastic, .. } = rigid_motions();
+    let [heave, pitch] = [elastic.force[0], elastic.force[1]];
+    assert_close("lift of the thrust", heave.thrust_across, 1.0, ROUNDING);
+    assert_close("couple", pitch.thrust_couple, -aero.thrust_arm, ROUNDING);
+    assert!(heave.thrust_couple.abs() < ROUNDING && pitch.thrust_across.abs() < ROUNDING);
+}
+
+#[test]
+fn verif_liquid_at_rest_lies_on_the_floor() {
+    // In steady flight every force on a sloshing mass is balanced without its spring. What is left
+    // is what the modes beyond the kept ones would carry.
+    for fuel_fraction in [0.0, 0.5, 1.0] {
+        let build = ahv::vehicle::Build { fuel_fraction, ..build(Configuration::SloshBeam) };
+        let vehicle = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
+        let trim = ahv::trim::trim(&vehicle, &build.condition).unwrap();
+        let slosh = vehicle.outputs(&trim.state, &trim.control).slosh;
+        assert!(slosh.iter().all(|s| s.abs() < 2e-3), "fuel {fuel_fraction}: {slosh:?} m");
+    }
+}
+
+#[test]
 fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
     // q > 0 lifts the nose: w = -(x - x_cg), so a rate of the nose-down shape is -q.
     let Case { elastic, centre, aero } = rigid_motions();
@@ -86,13 +107,20 @@ fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
 
 #[test]
 fn verif_the_air_damps_every_mode() {
-    // Every surface has a positive lift slope, so mu_i N_rate is negative definite: no flutter
+    // Every surface has a positive lift slope, so the matrix mu_i N_rate is negative: no flutter
     // from quasi-steady damping.
     for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
         let vehicle = vehicle(configuration);
-        for (i, force) in vehicle.elastic.force.iter().enumerate().take(vehicle.modes) {
-            assert!(force.elastic.rate[i] < 0.0, "{configuration:?}, mode {i}");
-        }
+        let (beam, oscillators) = structure(&data(), &build(configuration)).unwrap();
+        let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
+        let n = vehicle.modes;
+        let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
+            let entry = |i: usize, k: usize| vehicle.elastic.force[i].elastic.rate[k] * mass[i];
+            0.5 * (entry(i, k) + entry(k, i))
+        });
+        let eigenvalues = damping.symmetric_eigenvalues();
+        // Three surfaces make a semidefinite matrix of any rank; rounding may lift a zero.
+        assert!(eigenvalues.max() < 1e-12 * -eigenvalues.min(), "{configuration:?}: {eigenvalues}");
     }
 }
 

@@ -2,16 +2,18 @@
 #![allow(missing_docs)]
 
 use ahv::params::{
-    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, VEHICLE_TOML, VehicleData, XU2015_TOML,
+    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
+    VehicleData, XU2015_TOML,
 };
 
 /// Unit that a key's suffix promises; keys without one are plain numbers.
-const SUFFIXES: [(&str, &str); 15] = [
+const SUFFIXES: [(&str, &str); 18] = [
     ("_kg_m2_per_m", "kg m^2/m"),
     ("_n_m2_per_m", "N m^2/m"),
     ("_kg_per_m2", "kg/m^2"),
     ("_j_per_kg_k", "J/(kg K)"),
     ("_rad_per_s", "rad/s"),
+    ("_j_per_kg", "J/kg"),
     ("_m_per_s2", "m/s^2"),
     ("_m2_per_m", "m^2/m"),
     ("_k_per_m", "K/m"),
@@ -20,6 +22,8 @@ const SUFFIXES: [(&str, &str); 15] = [
     ("_k", "K"),
     ("_m", "m"),
     ("alpha3", "1/rad^3"),
+    ("delta_e3", "1/rad^3"),
+    ("alpha_delta_e", "1/rad^2"),
     ("2", "1/rad^2"),
     ("", "1"),
 ];
@@ -42,7 +46,7 @@ fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str,
 
 #[test]
 fn verif_every_number_has_unit_source_and_status() {
-    for text in [VEHICLE_TOML, EARTH_TOML, XU2015_TOML, PARKER2007_TOML] {
+    for text in [VEHICLE_TOML, EARTH_TOML, XU2015_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML] {
         let mut count = 0;
         for_each_number(&text.parse().unwrap(), "", &mut |path, number| {
             count += 1;
@@ -51,7 +55,7 @@ fn verif_every_number_has_unit_source_and_status() {
                 assert!(!text.is_empty(), "{path}: no {field}");
             }
             let unit = number["unit"].as_str().unwrap();
-            let angle = ["alpha", "delta_e"].iter().any(|name| path.ends_with(name));
+            let angle = [".alpha", ".delta_e"].iter().any(|name| path.ends_with(name));
             let expected = SUFFIXES.iter().find(|(suffix, _)| path.ends_with(suffix)).unwrap().1;
             let expected = if angle { "1/rad" } else { expected };
             assert_eq!(unit, expected, "{path}");
@@ -103,6 +107,16 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         ("status = \"identified\"", "status = \"guessed\"", "unknown variant `guessed`"),
         ("[actuation]", "[actuators]", "unknown field `actuators`"),
         ("value = 30.48", "value = nan", "must be positive"),
+        (
+            "nacelle_m = { value = 6.096",
+            "nacelle_m = { value = 26.096",
+            "geometry.nacelle_m: 26.096 must lie between 0 and 16.154",
+        ),
+        (
+            "nozzle_area_ratio = { value = 6.35",
+            "nozzle_area_ratio = { value = 0.5",
+            "engine.nozzle_area_ratio: 0.5 must be 1 or more",
+        ),
     ] {
         let message = refused(from, to);
         assert!(message.starts_with("mine.toml: ") && message.contains(told), "{message}");

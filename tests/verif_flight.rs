@@ -8,8 +8,8 @@ use ahv::error::Error;
 use ahv::linear::Linear;
 use ahv::scalar::Dual;
 use ahv::trim::{Condition, trim};
-use ahv::vehicle::Configuration;
-use model::{AERO_SETS, CONFIGURATIONS, build, data, deviation, flight, vehicle};
+use ahv::vehicle::{AeroSet, Configuration};
+use model::{AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, vehicle, vehicle_with};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.
@@ -27,10 +27,10 @@ fn disturbed(vehicle: &Vehicle, scale: [f64; STATES]) -> State {
 
 #[test]
 fn verif_trim_leaves_no_acceleration() {
-    for configuration in CONFIGURATIONS {
+    for build in builds() {
         for fuel_fraction in [0.0, 0.3, 1.0] {
             for mach in [7.0, 8.0, 9.0] {
-                let build = ahv::vehicle::Build { fuel_fraction, ..build(configuration) };
+                let build = ahv::vehicle::Build { fuel_fraction, ..build };
                 let vehicle = Vehicle::new(&data(), &build).unwrap();
                 let condition = Condition { mach, ..build.condition };
                 let trimmed = trim(&vehicle, &condition).unwrap();
@@ -40,7 +40,7 @@ fn verif_trim_leaves_no_acceleration() {
                     let size = if i < 5 { 10.0 } else { 1e4 };
                     assert!(
                         rate.abs() < STEADY * size,
-                        "{configuration:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
+                        "{build:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
                     );
                 }
             }
@@ -67,13 +67,16 @@ fn verif_an_impossible_trim_names_the_limit() {
         assert!(text.contains(limit), "{error}");
         assert!(residual.is_finite() && *residual > 0.0, "{error}");
     }
-    // Inside the envelope, but the elevator cannot hold the nose up.
+    // Inside the envelope, but no thrust climbs that steeply.
+    let steep = Condition { mach: 8.0, altitude: 25_900.0, gamma: 1.2 };
+    let error = trim(&vehicle(Configuration::Rigid), &steep).unwrap_err().to_string();
+    assert!(error.contains("phi = ") && error.contains("gamma0 = 1.2"), "{error}");
+    // And where the air is too thin for any incidence there is no solution at all.
     let thin = Condition { mach: 6.2, altitude: 41_000.0, gamma: 0.0 };
-    let error = trim(&vehicle(Configuration::Rigid), &thin).unwrap_err();
-    assert!(
-        error.to_string().contains("alpha = ") || error.to_string().contains("delta_e = "),
-        "{error}"
-    );
+    let error = trim(&vehicle_with(AeroSet::Parker2007, Configuration::Rigid), &thin)
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("no solution"), "{error}");
 }
 
 proptest! {
@@ -82,8 +85,8 @@ proptest! {
     #[test]
     fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform15(-1.0..1.0_f64)) {
         // alpha' + gamma' = q: the sign missing in the printed eq. (3).
-        for configuration in CONFIGURATIONS {
-            let vehicle = vehicle(configuration);
+        for build in builds() {
+            let vehicle = Vehicle::new(&data(), &build).unwrap();
             let x = disturbed(&vehicle, scale);
             let rates = vehicle.derivatives(&x, &[0.1, 0.3]);
             prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
@@ -93,8 +96,8 @@ proptest! {
 
     #[test]
     fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform15(-1.0..1.0_f64)) {
-        for configuration in CONFIGURATIONS {
-            let vehicle = vehicle(configuration);
+        for build in builds() {
+            let vehicle = Vehicle::new(&data(), &build).unwrap();
             let (x, u) = (disturbed(&vehicle, scale), [0.1, 0.3]);
             let linear = Linear::new(&vehicle, &x, &u);
             let n = vehicle.states();
@@ -120,7 +123,7 @@ proptest! {
                     let floor = (one.0[row].abs() + 1e-3) / size;
                     prop_assert!(
                         deviation(difference, exact, floor) < DIFFERENCES,
-                        "{configuration:?} ({row}, {column}): {difference} against {exact}"
+                        "{build:?} ({row}, {column}): {difference} against {exact}"
                     );
                 }
             }
@@ -130,8 +133,8 @@ proptest! {
 
 #[test]
 fn verif_dual_numbers_carry_the_plain_value() {
-    for configuration in CONFIGURATIONS {
-        let vehicle = vehicle(configuration);
+    for build in builds() {
+        let vehicle = Vehicle::new(&data(), &build).unwrap();
         let x = disturbed(&vehicle, [0.3; STATES]);
         let dual = vehicle.derivatives(
             &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),

@@ -227,3 +227,30 @@ fn verif_a_million_steps_do_not_drift() {
     assert_eq!(flight.time(), 1.0);
     assert!(distance(flight.state(), &start) < 1e-10, "{:e}", distance(flight.state(), &start));
 }
+
+#[test]
+fn verif_a_late_start_costs_no_digits() {
+    let fly = |start: f64| {
+        let mut flight = flight(ahv::vehicle::Configuration::SloshBeam);
+        flight.set_experiment(start, 1e-8);
+        flight.set_input(0, 2e-3);
+        flight.advance(start + 0.5).unwrap();
+        *flight.state()
+    };
+    let now = fly(0.0);
+    for start in [1e6, 1e9, 1e12] {
+        // Half a second is exact in all of these.
+        assert_eq!(fly(start), now, "from {start} s");
+    }
+}
+
+#[test]
+fn verif_a_long_interval_that_leaves_the_envelope_says_so() {
+    for length in [1e2, 1e4, 1e8] {
+        let mut flight = flight(ahv::vehicle::Configuration::SloshBeam);
+        flight.set_input(0, 2e-3);
+        let error = flight.advance(length).unwrap_err();
+        assert!(matches!(error, ahv::error::Error::Envelope { .. }), "{length} s: {error}");
+        assert!(flight.time() < 20.0);
+    }
+}

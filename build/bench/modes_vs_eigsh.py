@@ -24,7 +24,9 @@ def matrices(data):
     """K and M in scaled rotations (element length times slope), as CSC."""
     length, count = data["element_m"], len(data["density"])
     k = np.array([[12, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]], float)
-    m = np.array([[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]], float)
+    m = np.array(
+        [[156, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]], float
+    )
     size = 2 * (count + 1) + len(data["oscillators"])
     rows, cols, stiffness, mass = [], [], [], []
 
@@ -36,13 +38,16 @@ def matrices(data):
                 stiffness.append(k_block[i][j])
                 mass.append(m_block[i][j])
 
-    for e, (ei, density) in enumerate(zip(data["stiffness"], data["density"])):
+    for e, (ei, density) in enumerate(zip(data["stiffness"], data["density"], strict=True)):
         add(range(2 * e, 2 * e + 4), k * ei / length**3, m * density * length / 420)
     for j, o in enumerate(data["oscillators"]):
         places = [2 * o["node"], 2 * (count + 1) + j]
         spring = o["stiffness"] * np.array([[1, -1], [-1, 1]])
         add(places, spring, np.diag([0, o["mass"]]))
-    build = lambda entries: coo_matrix((entries, (rows, cols)), shape=(size, size)).tocsc()
+
+    def build(entries):
+        return coo_matrix((entries, (rows, cols)), shape=(size, size)).tocsc()
+
     return build(stiffness), build(mass)
 
 
@@ -54,11 +59,13 @@ def main():
     times = []
     for _ in range(REPEATS):
         start = time.perf_counter()
-        values = eigsh(k, k=RIGID + len(ours), M=m, sigma=-1.0, which="LM", return_eigenvectors=True)[0]
+        count = RIGID + len(ours)
+        values = eigsh(k, k=count, M=m, sigma=-1.0, which="LM", return_eigenvectors=True)[0]
         times.append(time.perf_counter() - start)
     theirs = np.sqrt(np.abs(np.sort(values)))
     print(f"unknowns {k.shape[0]}, modes {len(ours)}")
-    print(f"median: ours {1e3 * data['median_s']:.2f} ms, eigsh {1e3 * statistics.median(times):.2f} ms")
+    median = statistics.median(times)
+    print(f"median: ours {1e3 * data['median_s']:.2f} ms, eigsh {1e3 * median:.2f} ms")
     print("rigid-body modes of eigsh, rad/s (truth 0):", theirs[:RIGID])
     print("eigsh against ours, relative:", theirs[RIGID:] / ours - 1)
 

@@ -16,6 +16,7 @@ pub struct Cli {
 pub enum Command {
     Describe(Describe),
     Package(Package),
+    Fit(Fit),
     Fly(Fly),
     Modes(Modes),
     /// Trimmed flight: incidence, controls, forces, static deflections
@@ -40,6 +41,20 @@ pub struct Describe {
     /// File to write or to compare
     #[arg(long, value_name = "FILE")]
     pub file: Option<PathBuf>,
+}
+
+/// Fit the curves of eq. (4) to the first-principles model and write src/data/aero/shock_expansion.toml
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv fit            write the file; the errors of the fit are printed
+  cargo ahv fit --check    fail if the committed file is not what would be written
+
+The numbers are part of the library: run `cargo ahv describe` after a change.")]
+pub struct Fit {
+    /// Compare instead of writing; fail if they differ
+    #[arg(long)]
+    pub check: bool,
 }
 
 /// Build the library and write the FMU
@@ -84,13 +99,13 @@ pub struct Fly {
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Communication step, s [default: that of the FMU]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Stop time, s [default: that of the FMU]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub stop: Option<f64>,
     /// Relative tolerance of the integration [default: that of the FMU]
-    #[arg(long, value_name = "NUMBER")]
+    #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]
     pub set: Set,

@@ -13,6 +13,8 @@ use crate::{package, plot};
 use anyhow::{Context, Result, bail};
 use std::time::{Duration, Instant};
 
+/// Steps of which a record is kept; each takes about 200 bytes of memory and of the CSV file.
+const MAX_STEPS: f64 = 1e6;
 /// Communication points closer than this share of a step are one.
 const SAME_INSTANT: f64 = 1e-6;
 
@@ -51,6 +53,12 @@ pub fn run(options: &Fly) -> Result<()> {
     apply(&mut instance, &manoeuvre, 0.0)?;
     instance.initialise()?;
     let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
+    if stop / step > MAX_STEPS {
+        bail!(
+            "--step {step} s makes {:.0e} steps in {stop} s; the record holds {MAX_STEPS:.0e}",
+            stop / step
+        );
+    }
     let flown = fly(&mut instance, model, &manoeuvre, step, stop)?;
     if flown.discarded.is_none() {
         instance.terminate()?;

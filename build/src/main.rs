@@ -3,6 +3,7 @@
 mod cli;
 mod describe;
 mod documentation;
+mod fit;
 mod fly;
 mod fmu;
 mod identify;
@@ -31,9 +32,18 @@ use cli::{Cli, Command};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    // A reader that has seen enough, `cargo ahv poles | head`, is no failure.
+    let report = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if panic.to_string().contains("Broken pipe") {
+            std::process::exit(0);
+        }
+        report(panic);
+    }));
     let result = match Cli::parse().command {
         Command::Describe(options) => describe::run(&options),
         Command::Package(options) => package::run(&options),
+        Command::Fit(options) => fit::run(&options),
         Command::Fly(options) => fly::run(&options),
         Command::Modes(options) => modes::run(&options),
         Command::Trim(options) => trim::run(&options),

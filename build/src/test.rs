@@ -11,7 +11,7 @@ use std::time::Instant;
 /// A named step.
 type Step = (&'static str, fn() -> Result<()>);
 
-const STEPS: [Step; 7] = [
+const STEPS: [Step; 9] = [
     ("prerequisites", prerequisites),
     ("format", || check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", || {
@@ -20,6 +20,8 @@ const STEPS: [Step; 7] = [
     ("Rust tests", || check(cargo().args(["test", "--workspace", "--no-fail-fast"]))),
     ("description", || describe::run(&Describe { check: true, file: None })),
     ("package", || package::build().map(|file| println!("{}", shown(&file)))),
+    ("Python lints", python_lints),
+    ("FMI headers", fmi_headers),
     ("FMU tests", fmu_tests),
 ];
 
@@ -68,7 +70,11 @@ fn check(command: &mut Command) -> Result<()> {
 fn prerequisites() -> Result<()> {
     const NEEDED: [(&str, &[&str], &str); 4] = [
         ("cc", &["--version"], "gcc"),
-        ("python3", &["--version"], "python3"),
+        (
+            "python3",
+            &["-c", "import sys; assert sys.version_info >= (3, 11)"],
+            "python3 (3.11 or newer)",
+        ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
     ];
@@ -101,6 +107,29 @@ fn fmu_tests() -> Result<()> {
             .arg(tests)
             .current_dir(root())
             .env("AHV_FMU", fmu),
+    )
+}
+
+fn python_lints() -> Result<()> {
+    let python = environment()?;
+    for arguments in [["check"].as_slice(), &["format", "--check"]] {
+        let mut ruff = Command::new(&python);
+        check(ruff.args(["-m", "ruff"]).args(arguments).arg("--no-cache").current_dir(root()))?;
+    }
+    Ok(())
+}
+
+/// Our declarations against the official headers, of which FMPy brings a copy.
+fn fmi_headers() -> Result<()> {
+    let python = environment()?;
+    let find = "import fmpy, pathlib; print(pathlib.Path(fmpy.__file__).parent / 'c-code')";
+    let output = Command::new(&python).args(["-c", find]).output()?;
+    let headers = String::from_utf8_lossy(&output.stdout).trim().to_string();
+    check(
+        cargo()
+            .args(["test", "--package", "ahv-fmu", "--features", "verify-abi"])
+            .args(["--test", "abi_signatures"])
+            .env("FMI2_INCLUDE", headers),
     )
 }
 

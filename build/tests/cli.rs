@@ -46,6 +46,13 @@ fn committed_coefficients_are_what_the_identification_finds() {
 }
 
 #[test]
+fn committed_fit_is_what_the_model_says() {
+    let check = ahv(&["fit", "--check"]);
+    assert!(check.ok, "{}", check.err);
+    assert!(check.out.contains("held out, rms"), "{}", check.out);
+}
+
+#[test]
 fn outdated_description_is_refused_with_line_and_remedy() {
     let directory = TempDir::new().unwrap();
     let file = directory.path().join("modelDescription.xml");

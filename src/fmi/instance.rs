@@ -13,9 +13,11 @@ use crate::fmi::sys::{Status, StatusKind};
 /// range, as a setup that works must not warn.
 pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 
-/// Two instants this close, relative to their size or the step, are the same: masters add up
-/// communication points in different ways, or pass them on as decimal text.
+/// Two instants this close, over the step, are the same: masters add up communication points in
+/// different ways, or pass them on as decimal text.
 pub const SAME_INSTANT: f64 = 1e-9;
+/// So are two that are this many roundings apart.
+const ROUNDINGS: f64 = 64.0;
 
 /// What an instance remembers besides the flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -176,7 +178,10 @@ impl Instance {
             });
         }
         let end = point + step;
-        let same = |a: f64, b: f64| (a - b).abs() <= SAME_INSTANT * a.abs().max(b.abs()).max(step);
+        let same = |a: f64, b: f64| {
+            let rounding = ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
+            (a - b).abs() <= rounding.max(SAME_INSTANT * step)
+        };
         if !(end.is_finite() && same(point, time) && end >= time) {
             return Err(Failure::CommunicationPoint { asked: point, step, time });
         }

@@ -60,10 +60,10 @@ impl Category {
         1 << self as u8
     }
 
-    /// Errors are logged whether or not their category is enabled: section 2.1.3 says for
-    /// `fmi2Error` and `fmi2Fatal`, without the condition it makes for `fmi2Discard`, that the
-    /// logger was called. `loggingOn` is about debugging, and a refused call must never be mute.
-    const ALWAYS: u8 = Self::StatusError.bit() | Self::StatusFatal.bit();
+    /// What is logged whether or not its category is enabled: `loggingOn` is about debugging, and
+    /// neither a refused call nor a flight that ends early may be mute.
+    const ALWAYS: u8 =
+        Self::StatusDiscard.bit() | Self::StatusError.bit() | Self::StatusFatal.bit();
 }
 
 /// A message ready for a logger of the `printf` kind.

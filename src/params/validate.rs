@@ -1,6 +1,7 @@
 //! Reading and checking of the data files: a wrong number is refused with file, key and limit.
 
 use super::{AeroData, EarthData, VehicleData};
+use crate::atmosphere::MAX_LAYERS;
 use crate::error::Error;
 use serde::Deserialize;
 
@@ -8,6 +9,8 @@ use serde::Deserialize;
 const SHARES_ADD_UP: f64 = 1e-9;
 /// Below, three bending modes have no nodes to live on; above, no one needs it.
 const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
+/// A surface steeper than 45 deg is no slender body.
+const STEEPEST: [f64; 2] = [0.0, core::f64::consts::FRAC_PI_4];
 
 fn parse<T: for<'a> Deserialize<'a>>(file: &str, text: &str) -> Result<T, Error> {
     toml::from_str(text).map_err(|error| {
@@ -37,6 +40,10 @@ impl Check<'_> {
         self.that(value > 0.0 && value.is_finite(), key, || format!("{value} must be positive"))
     }
 
+    fn finite(&self, key: &str, value: f64) -> Result<(), Error> {
+        self.that(value.is_finite(), key, || format!("{value} must be finite"))
+    }
+
     fn inside(&self, key: &str, value: f64, [min, max]: [f64; 2]) -> Result<(), Error> {
         self.that(value > min && value < max, key, || {
             format!("{value} must lie between {min} and {max}")
@@ -61,12 +68,39 @@ impl VehicleData {
         let length = data.geometry.length_m.value;
         check.positive("geometry.length_m", length)?;
         check.inside("geometry.fore_body_m", data.geometry.fore_body_m.value, [0.0, length])?;
+        let tail = length - data.geometry.fore_body_m.value;
+        check.inside("geometry.nacelle_m", data.geometry.nacelle_m.value, [0.0, tail])?;
         data.check_mass(&check, length)?;
         data.check_beam(&check, length)?;
         data.check_tanks(&check, length)?;
         check.positive("actuation.delta_e_limit_rad", data.actuation.delta_e_limit_rad.value)?;
         check.positive("actuation.phi_limit", data.actuation.phi_limit.value)?;
+        data.check_outline(&check, length)?;
+        data.check_engine(&check)?;
         Ok(data)
+    }
+
+    fn check_outline(&self, check: &Check, length: f64) -> Result<(), Error> {
+        let outline = &self.outline;
+        check.inside("outline.lower_angle_rad", outline.lower_angle_rad.value, STEEPEST)?;
+        check.inside("outline.upper_angle_rad", outline.upper_angle_rad.value, STEEPEST)?;
+        let station = outline.elevator_station_m.value;
+        check.inside("outline.elevator_station_m", station, [0.0, length])?;
+        check.finite("outline.elevator_height_m", outline.elevator_height_m.value)?;
+        check.finite("outline.moment_height_m", outline.moment_height_m.value)?;
+        check.positive("outline.elevator_area_m2_per_m", outline.elevator_area_m2_per_m.value)
+    }
+
+    fn check_engine(&self, check: &Check) -> Result<(), Error> {
+        let engine = &self.engine;
+        check.positive("engine.duct_height_m", engine.duct_height_m.value)?;
+        let ratio = engine.nozzle_area_ratio.value;
+        check.that(ratio >= 1.0 && ratio.is_finite(), "engine.nozzle_area_ratio", || {
+            format!("{ratio} must be 1 or more")
+        })?;
+        check.positive("engine.heating_value_j_per_kg", engine.heating_value_j_per_kg.value)?;
+        check.positive("engine.stoichiometric_ratio", engine.stoichiometric_ratio.value)?;
+        check.inside("engine.combustion_efficiency", engine.combustion_efficiency.value, [0.0, 1.0])
     }
 
     fn check_mass(&self, check: &Check, length: f64) -> Result<(), Error> {
@@ -129,6 +163,9 @@ impl EarthData {
         check.that(bases.value.len() == lapses.value.len(), "air.layer_lapse_k_per_m", || {
             format!("{} values for {} layers", lapses.value.len(), bases.value.len())
         })?;
+        check.that(bases.value.len() <= MAX_LAYERS, "air.layer_base_m", || {
+            format!("{} layers, at most {MAX_LAYERS}", bases.value.len())
+        })?;
         check.positive("earth.gravity_m_per_s2", data.earth.gravity_m_per_s2.value)?;
         check.positive("earth.radius_m", data.earth.radius_m.value)?;
         Ok(data)
@@ -152,6 +189,13 @@ impl AeroData {
         check.positive("reference.elastic_scale", data.reference.elastic_scale.value)?;
         for ratio in data.inertia.structural_damping.value {
             check.inside("inertia.structural_damping", ratio, [0.0, 1.0])?;
+        }
+        let elevator = data.lift.delta_e.as_ref().map_or(0.0, |q| q.value);
+        check.that(elevator != 0.0, "lift.delta_e", || "the elevator must lift".into())?;
+        for (key, fit) in [("thrust", &data.thrust), ("thrust_phi", &data.thrust_phi)] {
+            check.that(fit.delta_e.is_none() && fit.delta_e2.is_none(), key, || {
+                "thrust does not depend on the elevator".into()
+            })?;
         }
         // The elastic terms are derived from loads that are quadratic in the incidence.
         for (key, fit) in [("lift.alpha3", &data.lift), ("moment.alpha3", &data.moment)] {

@@ -1,7 +1,7 @@
 //! The identity of the model.
 
 use super::{Kind, Role, TABLE};
-use crate::params::{EARTH_TOML, PARKER2007_TOML, VEHICLE_TOML, XU2015_TOML};
+use crate::params::{EARTH_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML, XU2015_TOML};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
@@ -65,6 +65,10 @@ pub const MODEL_HASH: u128 = {
         hash = fnv_text(hash, variable.description);
         hash = fnv_kind(hash, &variable.kind);
         hash = fnv_bits(hash, role(&variable.role));
+        let claims = variable.dependencies;
+        hash = fnv_bits(hash, claims.dependent as u64);
+        hash = fnv_bits(hash, claims.fixed as u64);
+        hash = fnv_bits(hash, claims.constant as u64);
         if let Some([min, max]) = variable.range {
             hash = fnv_bits(fnv_bits(hash, min.to_bits()), max.to_bits());
         }
@@ -74,6 +78,7 @@ pub const MODEL_HASH: u128 = {
     hash = fnv_text(hash, EARTH_TOML);
     hash = fnv_text(hash, XU2015_TOML);
     hash = fnv_text(hash, PARKER2007_TOML);
+    hash = fnv_text(hash, SHOCK_EXPANSION_TOML);
     fnv_text(hash, env!("CARGO_PKG_VERSION"))
 };
 

@@ -33,6 +33,11 @@ const fn dependent(mask: u32) -> Dependencies {
     Dependencies { dependent: mask, ..NONE }
 }
 
+/// A mode that a configuration does not have stays at rest: the factor is fixed, not constant.
+const fn fixed(mask: u32) -> Dependencies {
+    Dependencies { fixed: mask, ..NONE }
+}
+
 const fn constant(mask: u32) -> Dependencies {
     Dependencies { constant: mask, ..NONE }
 }
@@ -47,8 +52,8 @@ const PHI: u32 = 1 << (STATES + 1);
 const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
-/// What the aerodynamic forces depend on.
-const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E;
+/// What the aerodynamic forces depend on; on the fuel through the plume under the aft-body.
+const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E | PHI;
 
 const ROW: Variable = Variable {
     name: "",
@@ -176,6 +181,7 @@ const AERO: Kind = Kind::Enumeration(
             "parker2007 moved as little as possible towards Tables 2 and 3 of Xu, Huang, Cai 2015",
         ),
         ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
+        ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
     ],
 );
 const INPUT_MODE: Kind = Kind::Enumeration(
@@ -200,22 +206,22 @@ pub static TABLE: [Variable; 67] = [
     output_state(3, "alpha", ANGLE, "Angle of attack", |f| f.state()[3]),
     output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
     output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
-    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[0])),
-    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", Dependencies { fixed: ETAS, ..NONE }, |f| shown(f, |s| s.outputs.slosh[1])),
+    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[0])),
+    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
     output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
-    output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC | PHI), |f| shown(f, |s| s.outputs.loads.moment)),
+    output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.moment)),
     output("mach", ONE, "Mach number", dependent(V | H), |f| shown(f, |s| s.outputs.loads.mach)),
     output("qbar", PRESSURE, "Dynamic pressure", dependent(V | H), |f| shown(f, |s| s.outputs.loads.qbar)),
     output("n_z", ONE, "Normal load factor at the mass centre, in g", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.n_z)),
     output("delta_e_effective", ANGLE, "Elevator deflection in effect, absolute, after saturation", dependent(DELTA_E), |f| shown(f, |s| s.control[0])),
     output("phi_effective", ONE, "Fuel equivalence ratio in effect, absolute, after saturation", dependent(PHI), |f| shown(f, |s| s.control[1])),
     parameter("configuration", CONFIGURATION, None, "Which parts of the vehicle can move", |f| f.parameters().build.configuration as i32 as f64, |f, v| f.change(|p| p.build.configuration = match v as i32 { 1 => Configuration::Rigid, 2 => Configuration::EvenMassBeam, _ => Configuration::SloshBeam })),
-    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, v| f.change(|p| p.build.aero = match v as i32 { 1 => AeroSet::Xu2015, _ => AeroSet::Parker2007 })),
+    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, v| f.change(|p| p.build.aero = match v as i32 { 2 => AeroSet::Parker2007, 3 => AeroSet::ShockExpansion, _ => AeroSet::Xu2015 })),
     parameter("fuel_fraction", Kind::Real(ONE), Some([0.0, 1.0]), "Propellant left", |f| f.parameters().build.fuel_fraction, |f, v| f.change(|p| p.build.fuel_fraction = v)),
     parameter("slosh_damping", Kind::Real(ONE), Some([0.0, 1.0]), "Damping ratio of the sloshing masses", |f| f.parameters().build.slosh_damping, |f, v| f.change(|p| p.build.slosh_damping = v)),
-    parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
+    parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs, 0.1 rad/s and more; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),
     parameter("mach0", Kind::Real(ONE), Some([0.1, 30.0]), "Initial Mach number", |f| f.parameters().build.condition.mach, |f, v| f.change(|p| p.build.condition.mach = v)),
     parameter("altitude0", Kind::Real(METRE), Some([0.0, 85000.0]), "Initial altitude", |f| f.parameters().build.condition.altitude, |f, v| f.change(|p| p.build.condition.altitude = v)),
     parameter("gamma0", Kind::Real(ANGLE), Some([-1.5, 1.5]), "Initial flight-path angle", |f| f.parameters().build.condition.gamma, |f, v| f.change(|p| p.build.condition.gamma = v)),
@@ -241,20 +247,20 @@ pub static TABLE: [Variable; 67] = [
     local_state(12, "eta_slosh1_dot", SPEED, "Rate of the first slosh mode", |f| f.state()[12]),
     local_state(13, "eta_slosh2", METRE, "Second slosh mode, as the larger displacement of a sloshing mass", |f| f.state()[13]),
     local_state(14, "eta_slosh2_dot", SPEED, "Rate of the second slosh mode", |f| f.state()[14]),
-    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 0)),
+    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 0)),
     derivative(1, "der(h)", SPEED, dependent(V | GAMMA), |f| rate(f, 1)),
-    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA | PHI), |f| rate(f, 2)),
-    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA | PHI) }, |f| rate(f, 3)),
-    derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC | PHI), |f| rate(f, 4)),
-    derivative(5, "der(eta1)", SPEED, constant(1 << 6), |f| rate(f, 5)),
+    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 2)),
+    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA) }, |f| rate(f, 3)),
+    derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 4)),
+    derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
     derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
-    derivative(7, "der(eta2)", SPEED, constant(1 << 8), |f| rate(f, 7)),
+    derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
     derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
-    derivative(9, "der(eta3)", SPEED, constant(1 << 10), |f| rate(f, 9)),
+    derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
     derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
-    derivative(11, "der(eta_slosh1)", SPEED, constant(1 << 12), |f| rate(f, 11)),
+    derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
     derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
-    derivative(13, "der(eta_slosh2)", SPEED, constant(1 << 14), |f| rate(f, 13)),
+    derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
 ];
 

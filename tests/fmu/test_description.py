@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
+from fmpy.validation import validate_fmu
 
 from contract import COMPLETE, CONTRACT, ENUMERATIONS, EXPERIMENT, START, UNITS, Entry
-from fmpy.validation import validate_fmu
 from harness import DERIVATIVES, EVERYTHING, STATES, Package
 
 MAGIC = {"linux": b"\x7fELF\x02", "win": b"MZ", "darwin": b"\xcf\xfa\xed\xfe"}

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from ctypes import byref
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,6 +15,7 @@ from fmpy.fmi2 import fmi2Boolean, fmi2Integer, fmi2Real, fmi2String, fmi2ValueR
 
 from harness import DISCARD, ERROR, EVERYTHING, OK, STATES, Instance, Package, Refused
 
+HERE = Path(__file__).parent
 C_TYPES = {
     "Real": fmi2Real,
     "Integer": fmi2Integer,
@@ -63,6 +67,14 @@ def test_verif_leaving_the_envelope_is_discarded(
             if last > begin:
                 again.step(last - begin)
             np.testing.assert_allclose(again.get(*STATES), values[: len(STATES)], rtol=1e-6)
+
+
+def test_verif_leaving_the_envelope_ends_every_step(package: Package) -> None:
+    """A step that crosses the limit returns, whatever its size and its end round to."""
+    script = [sys.executable, str(HERE / "leave.py"), str(package.folder)]
+    run = subprocess.run(script, capture_output=True, text=True, timeout=60, check=False)
+    assert run.returncode == 0, run.stderr
+    assert set(run.stdout.split()) == {str(DISCARD)}
 
 
 def test_verif_discarded_flight_can_be_reset(package: Package) -> None:
@@ -237,6 +249,23 @@ def test_verif_calls_out_of_order_are_refused(package: Package) -> None:
         assert "fmi2DoStep" in instance.log[-1].text
     with package.instance() as instance:
         assert instance.status("fmi2ExitInitializationMode") == ERROR
+
+
+def test_verif_log_categories_are_those_described(package: Package) -> None:
+    """A master may switch on every category of the description; the FMU uses no other."""
+    described = [category.name for category in package.description.logCategories]
+    with package.instance() as flight:
+        for name in described:
+            categories = (fmi2String * 1)(name.encode())
+            assert flight.status("fmi2SetDebugLogging", True, 1, categories) == OK, name
+        flight.fmu.setDebugLogging(True, [])
+        flight.initialise(configuration=1, delta_e=0.2)
+        while flight.step_status(0.1) == OK:
+            pass
+        put(flight, "Real", 9999, 0.0)
+        used = {message.category for message in flight.log}
+    assert used
+    assert used <= set(described)
 
 
 def test_verif_nothing_to_say_about_a_good_flight(package: Package) -> None:

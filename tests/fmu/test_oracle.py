@@ -120,14 +120,14 @@ def test_verif_damping_takes_energy(vehicle: Callable[..., Vehicle], configurati
 
 
 def test_verif_liquid_at_rest_lies_on_the_floor(vehicle: Callable[..., Vehicle]) -> None:
-    """In trim the springs carry next to nothing of the sloshing masses' weight.
+    """In trim the springs carry nothing of the sloshing masses' weight, and the beam is at rest.
 
-    Without the floors each mass would hang g_eff/omega^2 below its tank; what is left comes from
-    the modes that are not kept.
+    Without the floors each mass would hang g_eff/omega^2 below its tank; without the thrust's work
+    on the modes it would lag behind a beam that seems to spin. What is left are the modes that are
+    not kept, and the small part of the drag across the body.
     """
     for parameters in ({}, {"fuel_fraction": 0.5}):
         oracle = vehicle(**({"configuration": SLOSH_BEAM} | parameters))
-        state, effective = oracle.trim()
-        outputs = oracle.outputs(state, effective)
-        for tank, key in zip(oracle.beam.tanks, ("slosh_1", "slosh_2"), strict=True):
-            assert abs(outputs[key]) < 0.15 * oracle.g_eff / tank.omega**2
+        outputs = oracle.outputs(*oracle.trim())
+        for key in ("slosh_1", "slosh_2"):
+            assert abs(outputs[key]) < 1e-3

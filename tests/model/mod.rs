@@ -6,9 +6,10 @@ use ahv::flight::Flight;
 use ahv::parameters::Parameters;
 use ahv::vehicle::{AeroSet, Build, Configuration, Data};
 
-pub const AERO_SETS: [AeroSet; 2] = [AeroSet::Xu2015, AeroSet::Parker2007];
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
+
+pub const AERO_SETS: [AeroSet; 3] = [AeroSet::Xu2015, AeroSet::Parker2007, AeroSet::ShockExpansion];
 
 pub fn data() -> Data {
     Data::embedded().expect("the embedded data are valid")
@@ -27,6 +28,13 @@ pub fn vehicle(configuration: Configuration) -> Vehicle {
 pub fn vehicle_with(aero: AeroSet, configuration: Configuration) -> Vehicle {
     let build = Build { aero, ..build(configuration) };
     Vehicle::new(&data(), &build).expect("the default vehicle can be built")
+}
+
+/// The default builds of all configurations with all coefficient sets.
+pub fn builds() -> impl Iterator<Item = Build> {
+    CONFIGURATIONS
+        .into_iter()
+        .flat_map(|configuration| AERO_SETS.map(|aero| Build { aero, ..build(configuration) }))
 }
 
 /// A trimmed default flight.

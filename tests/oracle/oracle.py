@@ -133,12 +133,13 @@ class Vehicle:
         moment = load * (ref["chord_m"] * c_m + shift * normal + ref["thrust_arm_m"] * c_t)
         modal = e.n_0 + e.n_alpha * alpha + e.n_alpha2 * alpha**2 + e.n_delta * u[0]
         modal = modal + e.n_eta @ eta + e.n_rate @ rate + e.n_q * (q / v)
+        engine = load * c_t * (e.lifted * np.sin(alpha) + e.turned)
         return {
             "lift": load * c_l,
             "drag": load * c_d,
             "thrust": load * c_t,
             "moment": moment,
-            "modal": load * modal,
+            "modal": load * modal + engine,
             "qbar": qbar,
             "mach": v / sound,
         }

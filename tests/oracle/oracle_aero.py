@@ -54,6 +54,7 @@ class Elastic:
 
     Attributes, per m of eta or, for the rates, per rad of eta_dot/V: cl_eta, cl_rate (and cd, cm,
     ct). Modal forces per qbar S: n_0, n_alpha, n_alpha2, n_delta, n_eta[i, j], n_rate[i, j], n_q.
+    Modal forces per thrust: lifted * sin(alpha) + turned.
     Also x_e m, strip[power of alpha, strip], strip_slope 1/rad and kappa.
     """
 
@@ -109,6 +110,10 @@ class Elastic:
         self.n_delta = applied((0.0, 0.0, cl_d)) @ w
         self.n_eta, self.n_rate = -(w.T * local) @ rate, -(w.T * local) @ w
         self.n_q = (local * (x - beam.x_cg)) @ w
+        # The thrust's virtual work: T sin(alpha) lifts the mass centre, T z_T turns the nacelle.
+        engine = geometry["fore_body_m"] + geometry["nacelle_m"] / 2.0
+        self.lifted = self.shapes(np.array([beam.x_cg]))[0][0]
+        self.turned = -ref["thrust_arm_m"] * self.shapes(np.array([engine]))[1][0]
 
     def shapes(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Mode shapes phi_i(x) and slopes phi_i'(x) in 1/m by the Hermite functions; [x, mode]."""

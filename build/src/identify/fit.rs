@@ -26,6 +26,19 @@ pub struct Fit {
     pub jacobian: DMatrix<f64>,
 }
 
+impl Fit {
+    fn at(residual: &Residual, point: DVector<f64>, held: &[bool]) -> Option<Self> {
+        let value = residual(&point)?;
+        let jacobian = jacobian(residual, &point, held)?;
+        Some(Self { point, residual: value, jacobian })
+    }
+
+    /// r^2 + `weight` p^2.
+    pub fn cost(&self, weight: f64) -> f64 {
+        self.residual.norm_squared() + weight * self.point.norm_squared()
+    }
+}
+
 /// d residual / d point. Directions in `held` are left at zero.
 pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Option<DMatrix<f64>> {
     let mut columns = Vec::with_capacity(point.len());
@@ -53,19 +66,14 @@ pub fn minimise(
     held: &[bool],
     weight: f64,
 ) -> Result<Fit> {
-    let lost = || anyhow!("the model has no answer where the identification starts");
-    let cost = |p: &DVector<f64>, r: &DVector<f64>| r.norm_squared() + weight * p.norm_squared();
-    let mut fit = Fit {
-        point: start.clone(),
-        residual: residual(start).ok_or_else(lost)?,
-        jacobian: jacobian(residual, start, held).ok_or_else(lost)?,
-    };
+    let mut fit = Fit::at(residual, start.clone(), held)
+        .ok_or_else(|| anyhow!("the model has no answer where the identification starts"))?;
     let mut damping = DAMPING;
     for _ in 0..MAX_STEPS {
         let Fit { point, residual: r, jacobian: j } = &fit;
         let normal = j.tr_mul(j);
         let slope = j.tr_mul(r) + point * weight;
-        let (step, next) = loop {
+        let improved = loop {
             let mut matrix = normal.clone();
             for i in 0..point.len() {
                 matrix[(i, i)] += weight + damping * (normal[(i, i)] + weight) + f64::EPSILON;
@@ -78,21 +86,20 @@ pub fn minimise(
                 .map(|factor| factor.solve(&-&slope))
                 .ok_or_else(|| anyhow!("the normal equations are singular"))?;
             step.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(s, _)| *s = 0.0);
-            let moved = point + &step;
-            match residual(&moved) {
-                Some(next) if cost(&moved, &next) <= cost(point, r) => break (step, Some(next)),
-                _ if damping > STUCK => break (step, None),
-                _ => damping *= TIGHTEN,
+            // A point without derivatives, at the edge of where there are answers, is none.
+            let better = Fit::at(residual, point + &step, held)
+                .filter(|next| next.cost(weight) <= fit.cost(weight));
+            if better.is_some() || damping > STUCK {
+                break better.map(|next| (step, next));
             }
+            damping *= TIGHTEN;
         };
-        let Some(next) = next else { break };
-        fit.point += &step;
-        fit.residual = next;
+        let Some((step, next)) = improved else { break };
+        fit = next;
         if step.amax() < CONVERGED {
             break;
         }
         damping *= RELAX;
-        fit.jacobian = jacobian(residual, &fit.point, held).ok_or_else(lost)?;
     }
     Ok(fit)
 }

@@ -48,10 +48,6 @@ impl Point {
         self.fit.point.norm_squared()
     }
 
-    fn cost(&self) -> f64 {
-        self.misfit() + self.weight * self.distance()
-    }
-
     /// Which numbers do not move.
     fn held(&self) -> Vec<bool> {
         self.fit.point.iter().map(|coordinate| *coordinate == 0.0).collect()
@@ -168,7 +164,8 @@ impl Model {
         for i in (knee + 2..path.len() - 1).rev() {
             let start = path[i + 1].fit.point.clone();
             let other = self.fit(&start, &[false; MOVABLE.len()], path[i].weight)?;
-            if other.cost() < path[i].cost() {
+            let weight = path[i].weight;
+            if other.fit.cost(weight) < path[i].fit.cost(weight) {
                 path[i] = other;
             }
         }
