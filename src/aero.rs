@@ -119,6 +119,8 @@ pub struct Aero {
     pub thrust_arm: f64,
     /// Incidence of the elastic derivatives, rad.
     pub elastic_alpha: f64,
+    /// Factor on all elastic terms.
+    pub elastic_scale: f64,
     /// Elevator deflection of the elastic derivatives, rad.
     pub elastic_delta_e: f64,
     /// C_L.
@@ -153,6 +155,7 @@ impl Aero {
             moment_centre: data.reference.moment_centre_m.value,
             thrust_arm: data.reference.thrust_arm_m.value,
             elastic_alpha: data.reference.elastic_alpha_rad.value,
+            elastic_scale: data.reference.elastic_scale.value,
             elastic_delta_e: data.reference.elastic_delta_e_rad.as_ref().map_or(0.0, |q| q.value),
             lift: Polynomial::new(&data.lift),
             drag: Polynomial::new(&data.drag),

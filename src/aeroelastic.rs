@@ -30,9 +30,8 @@ struct Surface {
     mean: Means,
 }
 
-/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products; x from the
-/// moment centre.
-#[derive(Default)]
+/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products.
+#[derive(Debug, Clone, Copy, Default)]
 struct Means {
     x: f64,
     phi: [f64; MODES],
@@ -44,17 +43,12 @@ struct Means {
 }
 
 impl Means {
-    /// Averages over places whose weights add up to `total`.
-    fn over(
-        points: impl Iterator<Item = Point>,
-        total: f64,
-        shapes: &[Shape],
-        moment_centre: f64,
-    ) -> Self {
+    /// Averages over places whose weights add up to `total`; x from the nose.
+    fn over(points: impl Iterator<Item = Point>, total: f64, shapes: &[Shape]) -> Self {
         let mut mean = Self::default();
         let (mut phi, mut slope) = ([0.0; MODES], [0.0; MODES]);
         for point in points {
-            let (weight, x) = (point.weight / total, point.x - moment_centre);
+            let (weight, x) = (point.weight / total, point.x);
             for (i, shape) in shapes.iter().enumerate() {
                 phi[i] = shape.w_at(&point);
                 slope[i] = shape.slope_at(&point);
@@ -73,10 +67,42 @@ impl Means {
         }
         mean
     }
+
+    /// The same with x from `centre`.
+    fn about(mut self, centre: f64) -> Self {
+        self.x -= centre;
+        for i in 0..MODES {
+            self.x_phi[i] -= centre * self.phi[i];
+            self.x_slope[i] -= centre * self.slope[i];
+        }
+        self
+    }
+}
+
+/// The two strips of the body with their averages: all that takes an integration over the beam.
+#[derive(Debug, Clone)]
+pub struct Strips {
+    fore: Means,
+    aft: Means,
+    /// Middle of the nacelle.
+    engine: Point,
+}
+
+impl Strips {
+    /// Cuts the beam at the end of the fore-body.
+    pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
+        let cut = geometry.fore_body_m.value;
+        let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
+        Self {
+            fore: strip(0.0, cut),
+            aft: strip(cut, beam.length_m()),
+            engine: beam.point(cut + 0.5 * geometry.nacelle_m.value),
+        }
+    }
 }
 
 /// The two strips and the elevator.
-fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surface; 3] {
+fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
     let at = aero.elastic_delta_e;
     let [elevator_lift, elevator_moment] =
         [&aero.lift, &aero.moment].map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
@@ -88,11 +114,7 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
             aero.moment.alpha[power] - own * elevator_moment,
         ]
     });
-    let strip = |from: f64, to: f64| {
-        let points = beam.gauss_points(from, to);
-        Means::over(points, to - from, shapes, aero.moment_centre)
-    };
-    let [fore, aft] = [strip(0.0, fore_body), strip(fore_body, beam.length_m())];
+    let [fore, aft] = [strips.fore, strips.aft].map(|strip| strip.about(aero.moment_centre));
     // c_1 + c_2 = C_L and -(x_1 c_1 + x_2 c_2) = chord C_M.
     let split = body.map(|[lift, moment]| {
         let first = (lift * aft.x + moment * aero.chord) / (aft.x - fore.x);
@@ -100,7 +122,7 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], fore_body: f64) -> [Surf
     });
     let mut place = beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
     place.weight = 1.0;
-    let elevator = Means::over([place].into_iter(), 1.0, shapes, aero.moment_centre);
+    let elevator = Means::over([place].into_iter(), 1.0, shapes).about(aero.moment_centre);
 
     let surface = |load: [f64; 3], mean: Means| Surface {
         load,
@@ -122,22 +144,22 @@ fn plume_station(aero: &Aero) -> Option<f64> {
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
-/// `geometry` gives the fore-body and the nacelle; `mass_centre` is a station, m from the nose.
+/// `mass_centre` is its station from the nose (m).
 pub fn derive(
     aero: &Aero,
     beam: &Beam,
     modes: &Modes,
-    geometry: &Geometry,
+    strips: &Strips,
     mass_centre: f64,
 ) -> Elastic {
-    let fore_body = geometry.fore_body_m.value;
-    let engine = beam.point(fore_body + 0.5 * geometry.nacelle_m.value);
     let centre = beam.point(mass_centre);
     let plume = plume_station(aero).map(|x| beam.point(x.clamp(0.0, beam.length_m())));
-    let surfaces = surfaces(aero, beam, &modes.shape, fore_body);
+    let surfaces = surfaces(aero, beam, &modes.shape, strips);
     // Sum over the surfaces of lift slope times an average.
-    let answer =
-        |f: &dyn Fn(&Means) -> f64| surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>();
+    let scale = aero.elastic_scale;
+    let answer = |f: &dyn Fn(&Means) -> f64| {
+        surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>() * scale
+    };
     let drag_per_lift = aero.drag.slope(aero.elastic_alpha) / aero.lift.slope(aero.elastic_alpha);
     let shift = mass_centre - aero.moment_centre;
 
@@ -151,8 +173,8 @@ pub fn derive(
         elastic.drag.eta[i] = drag_per_lift * elastic.lift.eta[i];
         elastic.drag.rate[i] = drag_per_lift * elastic.lift.rate[i];
         // The engine swallows what the fore-body has turned.
-        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i];
-        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i];
+        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i] * scale;
+        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i] * scale;
 
         let per_mass = 1.0 / modes.modal_mass[i];
         let load = |power: usize| {
@@ -164,7 +186,7 @@ pub fn derive(
             thrust_across: modes.shape[i].w_at(&centre) * per_mass,
             plume: plume.map_or(0.0, |place| modes.shape[i].w_at(&place) * per_mass),
             // Nose up and w up: the couple works on a falling slope.
-            thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&engine) * per_mass,
+            thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&strips.engine) * per_mass,
             pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,
             ..ModalForce::default()
         };

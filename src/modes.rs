@@ -104,12 +104,13 @@ impl Modes {
     /// Modal damping matrix D of `eta'' + D eta' + omega^2 eta = N / mu`, 1/s.
     ///
     /// `D_ik = (1/mu_i) sum_j c_j rel_ji rel_jk + delta_ik 2 zeta omega_i e_i`: the dampers of the
-    /// sloshing masses couple the modes; the structure, with damping ratio `structural_ratio`,
-    /// damps each mode by the share `e_i` of its strain energy that is in the beam.
+    /// sloshing masses couple the modes; the structure, with a damping ratio for each flexible mode,
+    /// damps each mode by the share `e_i` of its strain energy that is in the beam. A slosh mode
+    /// bends the beam as a slow load does, so it takes the ratio of the first flexible mode.
     pub fn damping(
         &self,
         oscillators: &[Oscillator],
-        structural_ratio: f64,
+        structural_ratio: &[f64; FLEXIBLE],
     ) -> [[f64; MODES]; MODES] {
         let mut damping = [[0.0; MODES]; MODES];
         for (i, row) in damping.iter_mut().enumerate().take(self.count) {
@@ -121,7 +122,8 @@ impl Modes {
                     .sum();
                 *entry = power / self.modal_mass[i];
             }
-            row[i] += 2.0 * structural_ratio * self.omega_rad_per_s[i] * self.beam_energy_share[i];
+            let ratio = structural_ratio.get(i).unwrap_or(&structural_ratio[0]);
+            row[i] += 2.0 * ratio * self.omega_rad_per_s[i] * self.beam_energy_share[i];
         }
         damping
     }

@@ -3,6 +3,7 @@
 mod shape;
 mod validate;
 
+use crate::modes::FLEXIBLE;
 pub use shape::{EngineData, Outline};
 
 use serde::Deserialize;
@@ -15,6 +16,9 @@ pub const EARTH_TOML: &str = include_str!("data/earth.toml");
 pub const PARKER2007_TOML: &str = include_str!("data/aero/parker2007.toml");
 /// Text of `aero/shock_expansion.toml`.
 pub const SHOCK_EXPANSION_TOML: &str = include_str!("data/aero/shock_expansion.toml");
+
+/// Text of `aero/xu2015.toml`.
+pub const XU2015_TOML: &str = include_str!("data/aero/xu2015.toml");
 
 /// How far a number can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -234,6 +238,8 @@ pub struct Reference {
     pub thrust_arm_m: Quantity,
     /// Incidence at which the elastic derivatives are taken, rad.
     pub elastic_alpha_rad: Quantity,
+    /// Factor on all elastic terms; 1 as they are derived.
+    pub elastic_scale: Quantity,
     /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
     pub elastic_delta_e_rad: Option<Quantity>,
 }
@@ -244,8 +250,8 @@ pub struct Reference {
 pub struct Inertia {
     /// Pitch inertia of the full vehicle, kg m^2 per metre of width.
     pub i_yy_kg_m2_per_m: Quantity,
-    /// Damping ratio of the structure.
-    pub structural_damping: Quantity,
+    /// Damping ratio of the structure in each flexible mode.
+    pub structural_damping: Quantity<[f64; FLEXIBLE]>,
 }
 
 /// A polynomial in incidence and elevator deflection; what is not given is zero.

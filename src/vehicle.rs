@@ -1,15 +1,15 @@
 //! From data and parameters to a vehicle that can fly.
 
 use crate::aero::Aero;
-use crate::aeroelastic::derive;
+use crate::aeroelastic::{Strips, derive};
 use crate::atmosphere::Atmosphere;
-use crate::beam::{Beam, Oscillator};
+use crate::beam::{Beam, MassProperties, Oscillator};
 use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
 use crate::params::{
     AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
-    VehicleData,
+    VehicleData, XU2015_TOML,
 };
 use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
@@ -28,6 +28,8 @@ pub enum Configuration {
 /// Coefficient set of eq. (4). The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AeroSet {
+    /// Published set, moved as little as possible towards Tables 2 and 3.
+    Xu2015 = 1,
     /// Published rigid part, derived elastic part.
     Parker2007 = 2,
     /// Regression of the first-principles model.
@@ -58,6 +60,8 @@ pub struct Data {
     pub vehicle: VehicleData,
     /// Gravity and air.
     pub earth: EarthData,
+    /// Identified coefficient set.
+    pub xu2015: AeroData,
     /// Published coefficient set.
     pub parker2007: AeroData,
     /// Coefficient set fitted to the first-principles model.
@@ -73,6 +77,7 @@ impl Data {
         Ok(Self {
             vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
             earth: EarthData::parse("earth.toml", EARTH_TOML)?,
+            xu2015: AeroData::parse("aero/xu2015.toml", XU2015_TOML)?,
             parker2007: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
             shock_expansion: AeroData::parse("aero/shock_expansion.toml", SHOCK_EXPANSION_TOML)?,
         })
@@ -81,6 +86,7 @@ impl Data {
     /// The data of a coefficient set.
     pub fn aero(&self, set: AeroSet) -> &AeroData {
         match set {
+            AeroSet::Xu2015 => &self.xu2015,
             AeroSet::Parker2007 => &self.parker2007,
             AeroSet::ShockExpansion => &self.shock_expansion,
         }
@@ -120,17 +126,24 @@ pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), 
     Ok((beam, oscillators))
 }
 
-impl Vehicle {
-    /// Puts a vehicle together.
-    ///
-    /// The published inertia is that of the full vehicle; with less propellant it falls as the
-    /// beam's own inertia does.
+/// What a build does not owe to its coefficient set: beam, sloshing masses and modes.
+#[derive(Debug, Clone)]
+pub struct Body {
+    beam: Beam,
+    oscillators: Vec<Oscillator>,
+    modes: Modes,
+    strips: Strips,
+    properties: MassProperties,
+    /// Pitch inertia over that of the full vehicle.
+    inertia_left: f64,
+}
+
+impl Body {
+    /// Assembles the beam and solves for its modes.
     ///
     /// # Errors
     /// [`Error`] if the tanks give no frequency or the modes cannot be found.
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        let set = data.aero(build.aero);
-        let aero = Aero::new(set);
         let (beam, oscillators) = structure(data, build)?;
         let properties = beam.mass_properties(&oscillators);
         let full = {
@@ -141,6 +154,29 @@ impl Vehicle {
             Configuration::Rigid => Modes::default(),
             _ => Modes::solve(&beam, &oscillators)?,
         };
+        let inertia_left = properties.inertia / full.inertia;
+        let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
+        Ok(Self { beam, oscillators, modes, strips, properties, inertia_left })
+    }
+}
+
+impl Vehicle {
+    /// Puts a vehicle together.
+    ///
+    /// # Errors
+    /// [`Error`] if the tanks give no frequency or the modes cannot be found.
+    pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
+        let body = Body::new(data, build)?;
+        Ok(Self::with_body(data, build, &body, data.aero(build.aero)))
+    }
+
+    /// The vehicle of a build with any coefficient set around its body.
+    ///
+    /// The set's inertia is that of the full vehicle; with less propellant it falls as the beam's
+    /// own inertia does.
+    pub fn with_body(data: &Data, build: &Build, body: &Body, set: &AeroData) -> Self {
+        let Body { beam, oscillators, modes, strips, properties, inertia_left } = body;
+        let aero = Aero::new(set);
         // A force m g up on each sloshing mass and down on its tank.
         let gravity = effective_gravity(data, &build.condition);
         let floor = std::array::from_fn(|i| {
@@ -148,22 +184,22 @@ impl Vehicle {
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
             if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
         });
-        Ok(Self {
+        Self {
             atmosphere: Atmosphere::new(&data.earth),
             aero,
-            elastic: derive(&aero, &beam, &modes, &data.vehicle.geometry, properties.centre_m),
+            elastic: derive(&aero, beam, modes, strips, properties.centre_m),
             mass: properties.mass,
-            inertia: set.inertia.i_yy_kg_m2_per_m.value * properties.inertia / full.inertia,
+            inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
             mass_centre: properties.centre_m,
             modes: modes.count,
             omega: modes.omega_rad_per_s,
-            damping: modes.damping(&oscillators, set.inertia.structural_damping.value),
+            damping: modes.damping(oscillators, &set.inertia.structural_damping.value),
             floor,
             slosh: modes.slosh_displacement,
             limits: [
                 data.vehicle.actuation.delta_e_limit_rad.value,
                 data.vehicle.actuation.phi_limit.value,
             ],
-        })
+        }
     }
 }

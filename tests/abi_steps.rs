@@ -125,7 +125,7 @@ fn start_time_and_tolerance_are_honoured_and_senseless_ones_refused() {
         assert_eq!(slave.setup_with(tolerance, -5.0, None), Status::Ok);
         assert_eq!(slave.enter(), Status::Ok);
         assert_eq!(slave.exit(), Status::Ok);
-        assert_eq!(slave.set("delta_e", 0.02), Status::Ok);
+        assert_eq!(slave.set("delta_e", 0.005), Status::Ok);
         assert_eq!(slave.step(0.0, 1.0), Status::Error, "the start time is -5 s");
         assert_eq!(slave.step(-5.0, 1.0), Status::Ok);
         slave.get("alpha")

@@ -43,7 +43,7 @@ fn verif_mass_on_a_rigid_beam_is_a_two_mass_oscillator() {
     assert!((modes.modal_mass[slosh] / reduced - 1.0).abs() < FREQUENCY);
     assert!((modes.shape[slosh].w[4] / (-reduced / 100.0) - 1.0).abs() < 1e-10);
     let oscillators = [Oscillator { node: 4, mass, stiffness, damping }];
-    let rate = modes.damping(&oscillators, 0.0)[slosh][slosh];
+    let rate = modes.damping(&oscillators, &[0.0; FLEXIBLE])[slosh][slosh];
     assert!((rate / (damping / reduced) - 1.0).abs() < FREQUENCY);
 }
 
@@ -53,7 +53,7 @@ fn verif_dampers_make_a_semidefinite_matrix() {
     for (fuel, frequency) in [(1.0, 0.0), (0.5, 0.2), (0.0, 5.0), (0.5, 25.3), (1.0, 100.0)] {
         let (beam, oscillators) = tanked(fuel, frequency);
         let modes = solve(&beam, &oscillators);
-        let damping = modes.damping(&oscillators, 0.0);
+        let damping = modes.damping(&oscillators, &[0.0; FLEXIBLE]);
         let power = nalgebra::SMatrix::<f64, MODES, MODES>::from_fn(|i, k| {
             damping[i][k] * (modes.modal_mass[i] / modes.modal_mass[k]).sqrt()
         });
@@ -69,10 +69,12 @@ fn verif_dampers_make_a_semidefinite_matrix() {
 #[test]
 fn verif_structural_damping_goes_with_the_bending_energy() {
     let modes = solve(&Beam::even(&vehicle(), 1.0), &[]);
-    let damping = modes.damping(&[], 0.02);
+    let ratio = [0.01, 0.02, 0.03];
+    let damping = modes.damping(&[], &ratio);
     for (i, row) in damping.iter().enumerate() {
         for (k, entry) in row.iter().enumerate() {
-            let truth = if i == k { 0.04 * modes.omega_rad_per_s[i] } else { 0.0 };
+            let ratio = if i == k { ratio.get(i).unwrap_or(&0.0) } else { &0.0 };
+            let truth = 2.0 * ratio * modes.omega_rad_per_s[i];
             assert!((entry - truth).abs() <= 1e-15 * truth);
         }
     }
@@ -122,7 +124,7 @@ fn verif_undamped_motion_keeps_its_energy_and_damped_motion_loses_it() {
     let (step, steps) = (1e-4, 20_000);
     let undamped = simulate(&modes, &[[0.0; MODES]; MODES], step, steps);
     assert!((undamped[steps] / undamped[0] - 1.0).abs() < 1e-8);
-    let damped = simulate(&modes, &modes.damping(&oscillators, 0.01), step, steps);
+    let damped = simulate(&modes, &modes.damping(&oscillators, &[0.01; FLEXIBLE]), step, steps);
     assert!(damped.windows(2).all(|pair| pair[1] < pair[0]));
     assert!(damped[steps] < 0.9 * damped[0]);
 }

@@ -3,7 +3,7 @@
 
 use ahv::params::{
     AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
-    VehicleData,
+    VehicleData, XU2015_TOML,
 };
 
 /// Unit that a key's suffix promises; keys without one are plain numbers.
@@ -46,7 +46,7 @@ fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str,
 
 #[test]
 fn verif_every_number_has_unit_source_and_status() {
-    for text in [VEHICLE_TOML, EARTH_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML] {
+    for text in [VEHICLE_TOML, EARTH_TOML, XU2015_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML] {
         let mut count = 0;
         for_each_number(&text.parse().unwrap(), "", &mut |path, number| {
             count += 1;

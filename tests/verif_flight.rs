@@ -8,8 +8,8 @@ use ahv::error::Error;
 use ahv::linear::Linear;
 use ahv::scalar::Dual;
 use ahv::trim::{Condition, trim};
-use ahv::vehicle::Configuration;
-use model::{CONFIGURATIONS, builds, data, deviation, flight, vehicle};
+use ahv::vehicle::{AeroSet, Configuration};
+use model::{AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, vehicle, vehicle_with};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.
@@ -73,7 +73,9 @@ fn verif_an_impossible_trim_names_the_limit() {
     assert!(error.contains("phi = ") && error.contains("gamma0 = 1.2"), "{error}");
     // And where the air is too thin for any incidence there is no solution at all.
     let thin = Condition { mach: 6.2, altitude: 41_000.0, gamma: 0.0 };
-    let error = trim(&vehicle(Configuration::Rigid), &thin).unwrap_err().to_string();
+    let error = trim(&vehicle_with(AeroSet::Parker2007, Configuration::Rigid), &thin)
+        .unwrap_err()
+        .to_string();
     assert!(error.contains("no solution"), "{error}");
 }
 
@@ -139,6 +141,36 @@ fn verif_dual_numbers_carry_the_plain_value() {
             &[0.1, 0.3].map(|v| Dual { re: v, eps: [0.0] }),
         );
         assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3]));
+    }
+}
+
+#[test]
+fn verif_examples_stay_inside_the_envelope() {
+    // Two seconds of open loop: the unstable pole multiplies what a manoeuvre leaves by up to 2000.
+    let files = [
+        include_str!("../examples/elevator_doublet.csv"),
+        include_str!("../examples/throttle_step.csv"),
+    ];
+    for (file, set) in files.into_iter().flat_map(|file| AERO_SETS.map(|set| (file, set))) {
+        let mut lines = file.lines().filter(|line| !line.starts_with('#'));
+        let names: Vec<_> = lines.next().unwrap().split(',').collect();
+        let rows: Vec<Vec<f64>> =
+            lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
+        for configuration in CONFIGURATIONS {
+            let mut flight = flight(configuration);
+            flight.change(|p| p.build.aero = set);
+            if rows[0][0] > 0.0 {
+                flight.advance(rows[0][0]).unwrap();
+            }
+            for (i, row) in rows.iter().enumerate() {
+                for (name, value) in names.iter().zip(row).skip(1) {
+                    flight.set_input(usize::from(*name == "phi"), *value);
+                }
+                let end = rows.get(i + 1).map_or(2.0, |next| next[0]);
+                let flown = flight.advance(end);
+                assert!(flown.is_ok(), "{names:?}, {set:?}, {configuration:?}: {flown:?}");
+            }
+        }
     }
 }
 

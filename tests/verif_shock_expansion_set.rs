@@ -4,7 +4,7 @@
 mod model;
 
 use ahv::aero::Aero;
-use ahv::aeroelastic::derive;
+use ahv::aeroelastic::{Strips, derive};
 use ahv::atmosphere::Atmosphere;
 use ahv::beam::Beam;
 use ahv::dynamics::Vehicle;
@@ -84,8 +84,8 @@ fn verif_panels_turn_like_the_whole_vehicle() {
     let slope = (up(attitude.alpha + 1e-4) - up(attitude.alpha - 1e-4)) / 2e-4;
     assert_close("lift", -direct.lift.eta[0], slope, 0.02);
     // The fit's own slope, over a wider range, is near it; so is that of the strips.
-    let fore_body = &data.vehicle.geometry;
-    let strips = derive(&aero, &beam, &modes, fore_body, aero.moment_centre);
+    let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
+    let strips = derive(&aero, &beam, &modes, &strips, aero.moment_centre);
     assert_close("strips", strips.lift.eta[0], direct.lift.eta[0], 0.15);
 }
 

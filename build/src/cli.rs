@@ -1,7 +1,7 @@
 //! What can be typed after `cargo ahv`.
 
 use crate::reproduce::Part;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
 /// Hypersonic vehicle with flexible fuselage and sloshing propellant, as an FMU: describe, package,
@@ -26,6 +26,7 @@ pub enum Command {
     Poles(Poles),
     Reproduce(Reproduce),
     Methods(Compare),
+    Identify(Identify),
     Test(Test),
 }
 
@@ -214,4 +215,32 @@ pub struct Test {
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,
+}
+
+/// Find numbers that are not published from results that are; write their data file
+#[derive(Debug, Args)]
+#[command(after_help = "\
+What can be identified:
+  xu2015   coefficient set: parker2007 moved as little as possible towards Tables 2 and 3;
+           writes src/data/aero/xu2015.toml
+
+Examples:
+  cargo ahv identify xu2015            write the file; print trade-off, numbers and cells
+  cargo ahv identify xu2015 --check    fail if the committed file is not what comes out
+  cargo ahv identify xu2015 --json     the same for a program")]
+pub struct Identify {
+    /// Which numbers
+    pub what: Identified,
+    /// Compare instead of writing; fail if they differ
+    #[arg(long)]
+    pub check: bool,
+    /// Print JSON, in SI units and radians
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Identified {
+    #[value(help = "Coefficient set of eq. (4)")]
+    Xu2015,
 }

@@ -227,6 +227,7 @@ fn file(
     for (key, angle) in ["elastic_alpha_rad", "elastic_delta_e_rad"].into_iter().zip(elastic) {
         text.push_str(&line(key, &format!("{angle:.5}"), "rad", source, "derived"));
     }
+    text.push_str(&copied("elastic_scale", &reference.elastic_scale));
     text.push_str("\n[inertia]\n");
     text.push_str(&copied("i_yy_kg_m2_per_m", &published.inertia.i_yy_kg_m2_per_m));
     text.push_str(&copied("structural_damping", &published.inertia.structural_damping));

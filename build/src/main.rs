@@ -7,6 +7,7 @@ mod figure;
 mod fit;
 mod fly;
 mod fmu;
+mod identify;
 mod licenses;
 mod manoeuvre;
 mod master;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         Command::Poles(options) => poles::run(&options),
         Command::Reproduce(options) => reproduce::run(&options),
         Command::Methods(options) => methods::run(&options),
+        Command::Identify(options) => identify::run(&options),
         Command::Test(options) => test::run(&options),
     };
     match result {

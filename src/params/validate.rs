@@ -186,6 +186,10 @@ impl AeroData {
         check.positive("reference.area_m2_per_m", data.reference.area_m2_per_m.value)?;
         check.positive("reference.chord_m", data.reference.chord_m.value)?;
         check.positive("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value)?;
+        check.positive("reference.elastic_scale", data.reference.elastic_scale.value)?;
+        for ratio in data.inertia.structural_damping.value {
+            check.inside("inertia.structural_damping", ratio, [0.0, 1.0])?;
+        }
         let elevator = data.lift.delta_e.as_ref().map_or(0.0, |q| q.value);
         check.that(elevator != 0.0, "lift.delta_e", || "the elevator must lift".into())?;
         for (key, fit) in [("thrust", &data.thrust), ("thrust_phi", &data.thrust_phi)] {

@@ -1,7 +1,7 @@
 //! The identity of the model.
 
 use super::{Kind, Role, TABLE};
-use crate::params::{EARTH_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML};
+use crate::params::{EARTH_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML, XU2015_TOML};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
@@ -76,6 +76,7 @@ pub const MODEL_HASH: u128 = {
     }
     hash = fnv_text(hash, VEHICLE_TOML);
     hash = fnv_text(hash, EARTH_TOML);
+    hash = fnv_text(hash, XU2015_TOML);
     hash = fnv_text(hash, PARKER2007_TOML);
     hash = fnv_text(hash, SHOCK_EXPANSION_TOML);
     fnv_text(hash, env!("CARGO_PKG_VERSION"))

@@ -93,7 +93,7 @@ ENUMERATIONS = {
 COMPLETE = ("configuration", "input_mode")
 
 START = {
-    **{"delta_e": 0.0, "phi": 0.0, "configuration": 3, "input_mode": 1, "trim": True},
+    **{"delta_e": 0.0, "phi": 0.0, "configuration": 3, "aero": 1, "input_mode": 1, "trim": True},
     **{"fuel_fraction": 1.0, "slosh_damping": 0.05, "slosh_frequency": 0.0},
     **{"mach0": 8.0, "altitude0": 25900.0, "gamma0": 0.0},
 }

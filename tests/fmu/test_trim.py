@@ -25,6 +25,7 @@ DRIFT = 1e-7
 
 SWEEP: list[dict[str, Any]] = [
     *({"configuration": number} for number in CONFIGURATIONS),
+    *({"aero": name} for name in ("xu2015", "parker2007")),
     *({"fuel_fraction": part} for part in (0.0, 0.5, 1.0)),
     *({"slosh_frequency": omega} for omega in (5.0, 20.0, 60.0)),
     *({"slosh_damping": ratio} for ratio in (0.0, 0.05, 0.3)),
@@ -36,7 +37,8 @@ SWEEP: list[dict[str, Any]] = [
 ]
 COMPARED: list[dict[str, Any]] = [
     *({"configuration": number} for number in CONFIGURATIONS),
-    {"fuel_fraction": 0.5},
+    *({"configuration": number, "aero": "parker2007"} for number in CONFIGURATIONS),
+    {"fuel_fraction": 0.5, "aero": "xu2015"},
     {"fuel_fraction": 0.0, "slosh_frequency": 5.0, "slosh_damping": 0.3},
     {"slosh_frequency": 60.0, "mach0": 7.5, "altitude0": 24500.0, "gamma0": 0.01},
     {"configuration": 2, "fuel_fraction": 0.5},
@@ -46,7 +48,7 @@ COMPARED: list[dict[str, Any]] = [
 
 def name_of(parameters: dict[str, Any]) -> str:
     """Name of a test case."""
-    return ",".join(f"{name}={value:g}" for name, value in parameters.items())
+    return ",".join(f"{name}={value}" for name, value in parameters.items())
 
 
 @pytest.mark.parametrize("parameters", SWEEP, ids=name_of)

@@ -9,7 +9,7 @@ use ahv::vehicle::{AeroSet, Build, Configuration, Data};
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
 
-pub const AERO_SETS: [AeroSet; 2] = [AeroSet::Parker2007, AeroSet::ShockExpansion];
+pub const AERO_SETS: [AeroSet; 3] = [AeroSet::Xu2015, AeroSet::Parker2007, AeroSet::ShockExpansion];
 
 pub fn data() -> Data {
     Data::embedded().expect("the embedded data are valid")
@@ -22,6 +22,12 @@ pub fn build(configuration: Configuration) -> Build {
 
 pub fn vehicle(configuration: Configuration) -> Vehicle {
     Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+}
+
+/// The vehicle with a coefficient set of choice.
+pub fn vehicle_with(aero: AeroSet, configuration: Configuration) -> Vehicle {
+    let build = Build { aero, ..build(configuration) };
+    Vehicle::new(&data(), &build).expect("the default vehicle can be built")
 }
 
 /// The default builds of all configurations with all coefficient sets.

@@ -39,7 +39,8 @@ class Vehicle:
     """The vehicle in one configuration (1 Rigid, 2 EvenMassBeam, 3 SloshBeam).
 
     slosh_damping is a ratio, slosh_frequency is in rad/s (0: from the tank), altitude0 in m,
-    gamma0 in rad; None takes the default of the data. `elements` overrides the data's beam mesh.
+    gamma0 in rad; None takes the default of the data. `elements` overrides the data's beam mesh,
+    `aero` names the coefficient set.
     Attributes: mass kg/m, x_cg m, i_yy kg m^2/m, omega rad/s, modal_mass kg/m, damping matrix D
     1/s, rel [tank, mode], floor m/s^2 (the floors of the tanks on each mode),
     modes (shapes at the nodes), beam, elastic (the terms of eq. (4)).
@@ -56,10 +57,11 @@ class Vehicle:
         gamma0: float = 0.0,
         data_dir: Path | str = DATA_DIR,
         elements: int | None = None,
+        aero: str = "xu2015",
     ) -> None:
         folder = Path(data_dir)
         self.data, self.earth = load(folder / "vehicle.toml"), load(folder / "earth.toml")
-        self.aero = load(folder / "aero" / "parker2007.toml")
+        self.aero = load(folder / "aero" / f"{aero}.toml")
         default = self.data["default"]
         self.configuration, self.gamma0 = configuration, gamma0
         self.mach0 = default["mach"] if mach0 is None else mach0
@@ -92,14 +94,16 @@ class Vehicle:
         self.floor = self._floor()
         self._trim: tuple[np.ndarray, np.ndarray] | None = None
 
-    def _damping(self, structural: float) -> np.ndarray:
+    def _damping(self, structural: Sequence[float]) -> np.ndarray:
         """Modal damping matrix D in 1/s: tank dampers, and the structure by its strain energy."""
         tanks, mass, omega = self.beam.tanks, self.modal_mass, self.omega
         rel = self.rel[: len(tanks)]
         c, k = np.array([t.damping for t in tanks]), np.array([t.stiffness for t in tanks])
         in_beam = 1.0 - k @ rel**2 / (omega**2 * mass)
         tank_part = (rel.T * c) @ rel / mass[:, None]
-        return tank_part + np.diag(2.0 * structural * omega * in_beam)
+        # Flexible modes have ratios of their own; slosh modes take that of the first.
+        ratio = np.concatenate([structural, [structural[0]] * 2])[: len(omega)]
+        return tank_part + np.diag(2.0 * ratio * omega * in_beam)
 
     def _floor(self) -> np.ndarray:
         """Modal acceleration in m/s^2 of the floors of the tanks, which carry the liquid at rest.

@@ -76,6 +76,8 @@ class Elastic:
         self.strip = np.linalg.solve(np.array([[1.0, 1.0], -arms / chord]), known).T
         slope = self.strip_slope = self.strip[1] + 2.0 * a_r * self.strip[2]
 
+        scale = ref["elastic_scale"]  # of all that answers to local incidence
+
         # Quadrature, exact for the polynomials of each element: points, weights / strip length.
         gauss, weight = np.polynomial.legendre.leggauss(6)
         every = np.union1d(beam.nodes, edges[1])
@@ -94,14 +96,14 @@ class Elastic:
             """Weights of a load: its two strips' values and the elevator's."""
             return mean * np.asarray(loads)[strip_of]
 
-        local = applied((*slope, cl_d))  # load per unit of local incidence
+        local = scale * applied((*slope, cl_d))  # load per unit of local incidence
         self.cl_eta, self.cl_rate = -local @ rate, -local @ w
         self.cm_eta, self.cm_rate = local * (x - x_r) @ rate / chord, local * (x - x_r) @ w / chord
         kappa = (poly(drag, a_r + 1j * TINY) / poly(lift, a_r + 1j * TINY).imag).imag
         self.kappa = kappa
         self.cd_eta, self.cd_rate = kappa * self.cl_eta, kappa * self.cl_rate
         fore = applied((1.0, 0.0, 0.0))
-        self.ct_eta, self.ct_rate = -fore @ rate, -fore @ w
+        self.ct_eta, self.ct_rate = -scale * (fore @ rate), -scale * (fore @ w)
         self.n_0 = applied((*self.strip[0], 0.0)) @ w
         self.n_alpha = applied((*self.strip[1], cl_d)) @ w
         self.n_alpha2 = applied((*self.strip[2], 0.0)) @ w

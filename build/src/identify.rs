@@ -1,0 +1,60 @@
+//! Identification: numbers that are not published, from results that are.
+
+mod cells;
+mod fit;
+mod numbers;
+mod path;
+mod report;
+
+use crate::cli::{Identified, Identify};
+use crate::workspace::{read_text, root, shown, write};
+use anyhow::{Result, bail};
+use report::Report;
+
+pub fn run(options: &Identify) -> Result<()> {
+    match options.what {
+        Identified::Xu2015 => xu2015(options),
+    }
+}
+
+fn xu2015(options: &Identify) -> Result<()> {
+    let model = path::Model::new()?;
+    let chosen = model.chosen()?;
+    let text = model.origin.file(&chosen.fit.point)?;
+    if options.json || !options.check {
+        let (path, knee) = model.path()?;
+        let report = Report::new(&model, &path, knee, &chosen)?;
+        if options.json {
+            println!("{:#}", report.json());
+        } else {
+            print!("{}", report.text()?);
+        }
+    }
+    settle(options, "xu2015", "src/data/aero/xu2015.toml", &text)
+}
+
+/// Writes a file of the repository, or compares it with what would be written.
+fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
+    let file = root().join(name);
+    let tell = |done: &str| eprintln!("{} {done}", shown(&file));
+    if !options.check {
+        write(&file, text)?;
+        tell("is written");
+        return Ok(());
+    }
+    let found = read_text(&file)?;
+    if found == text {
+        tell("is what comes out");
+        return Ok(());
+    }
+    let line = found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
+    let at = |text: &str| text.lines().nth(line).unwrap_or("(end of file)").to_string();
+    bail!(
+        "{}, line {}: not what comes out; run `cargo ahv identify {what}` and commit the result\n  \
+         found:    {}\n  expected: {}",
+        shown(&file),
+        line + 1,
+        at(&found),
+        at(text),
+    );
+}

@@ -1,0 +1,130 @@
+//! Nonlinear least squares: Levenberg and Marquardt's method on r(p)^2 + weight p^2.
+
+use anyhow::{Result, anyhow};
+use nalgebra::{DMatrix, DVector};
+
+/// Central differences: the truncation error of a smooth residual is then below 1e-9.
+const STEP: f64 = 1e-5;
+/// A step this small changes no digit that is written.
+const CONVERGED: f64 = 1e-9;
+const MAX_STEPS: usize = 200;
+/// Damping of the first step, and how it changes after a success and a failure.
+const DAMPING: f64 = 1e-3;
+const RELAX: f64 = 0.2;
+const TIGHTEN: f64 = 5.0;
+/// A step that needs more damping than this gains nothing that rounding would leave.
+const STUCK: f64 = 1e12;
+
+/// Residuals at a point; none where the model has no answer (no trim, no such root).
+pub type Residual<'a> = dyn Fn(&DVector<f64>) -> Option<DVector<f64>> + 'a;
+
+/// A minimum.
+#[derive(Debug, Clone)]
+pub struct Fit {
+    pub point: DVector<f64>,
+    pub residual: DVector<f64>,
+    pub jacobian: DMatrix<f64>,
+}
+
+impl Fit {
+    fn at(residual: &Residual, point: DVector<f64>, held: &[bool]) -> Option<Self> {
+        let value = residual(&point)?;
+        let jacobian = jacobian(residual, &point, held)?;
+        Some(Self { point, residual: value, jacobian })
+    }
+
+    /// r^2 + `weight` p^2.
+    pub fn cost(&self, weight: f64) -> f64 {
+        self.residual.norm_squared() + weight * self.point.norm_squared()
+    }
+}
+
+/// d residual / d point. Directions in `held` are left at zero.
+pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Option<DMatrix<f64>> {
+    let mut columns = Vec::with_capacity(point.len());
+    let count = residual(point)?.len();
+    for (i, held) in held.iter().enumerate() {
+        if *held {
+            columns.push(DVector::zeros(count));
+            continue;
+        }
+        let shifted = |step: f64| {
+            let mut point = point.clone();
+            point[i] += step;
+            residual(&point)
+        };
+        let (above, below) = (shifted(STEP)?, shifted(-STEP)?);
+        columns.push((above - below) * (0.5 / STEP));
+    }
+    Some(DMatrix::from_columns(&columns))
+}
+
+/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay.
+pub fn minimise(
+    residual: &Residual,
+    start: &DVector<f64>,
+    held: &[bool],
+    weight: f64,
+) -> Result<Fit> {
+    let mut fit = Fit::at(residual, start.clone(), held)
+        .ok_or_else(|| anyhow!("the model has no answer where the identification starts"))?;
+    let mut damping = DAMPING;
+    for _ in 0..MAX_STEPS {
+        let Fit { point, residual: r, jacobian: j } = &fit;
+        let normal = j.tr_mul(j);
+        let slope = j.tr_mul(r) + point * weight;
+        let improved = loop {
+            let mut matrix = normal.clone();
+            for i in 0..point.len() {
+                matrix[(i, i)] += weight + damping * (normal[(i, i)] + weight) + f64::EPSILON;
+                if held[i] {
+                    matrix[(i, i)] = 1.0;
+                }
+            }
+            let mut step = matrix
+                .cholesky()
+                .map(|factor| factor.solve(&-&slope))
+                .ok_or_else(|| anyhow!("the normal equations are singular"))?;
+            step.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(s, _)| *s = 0.0);
+            // A point without derivatives, at the edge of where there are answers, is none.
+            let better = Fit::at(residual, point + &step, held)
+                .filter(|next| next.cost(weight) <= fit.cost(weight));
+            if better.is_some() || damping > STUCK {
+                break better.map(|next| (step, next));
+            }
+            damping *= TIGHTEN;
+        };
+        let Some((step, next)) = improved else { break };
+        fit = next;
+        if step.amax() < CONVERGED {
+            break;
+        }
+        damping *= RELAX;
+    }
+    Ok(fit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn finds_the_valley_of_rosenbrock() {
+        let valley = |p: &DVector<f64>| {
+            Some(DVector::from_vec(vec![10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]))
+        };
+        let start = DVector::from_vec(vec![-1.2, 1.0]);
+        let free = minimise(&valley, &start, &[false, false], 0.0).unwrap();
+        assert!((free.point - DVector::from_element(2, 1.0)).amax() < 1e-6);
+        let held = minimise(&valley, &start, &[true, false], 0.0).unwrap();
+        assert_eq!(held.point[0], -1.2);
+        assert!((held.point[1] - 1.44).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_weight_holds_back() {
+        let line = |p: &DVector<f64>| Some(DVector::from_element(1, p[0] - 1.0));
+        let fit = minimise(&line, &DVector::zeros(1), &[false], 1.0).unwrap();
+        assert!((fit.point[0] - 0.5).abs() < 1e-8);
+    }
+}

@@ -1,0 +1,241 @@
+//! The trade-off between misfit and distance, and its knee.
+
+use super::cells::{COLUMNS, Cell, cells, values};
+use super::fit::{Fit, jacobian, minimise};
+use super::numbers::{MOVABLE, Origin};
+use ahv::dynamics::Vehicle;
+use ahv::parameters::Parameters;
+use ahv::params::AeroData;
+use ahv::trim::{Trim, trim};
+use ahv::vehicle::{Body, Build, Data};
+use anyhow::{Context, Result, anyhow};
+use nalgebra::{DMatrix, DVector};
+
+/// Weights of the distance along the path: from where nothing moves to where nothing holds back.
+const FIRST_WEIGHT: f64 = 1e4;
+const LAST_WEIGHT: f64 = 1e-2;
+const STEPS_PER_DECADE: i32 = 4;
+/// A number that would move by less stays where it is.
+const STAYS: f64 = 0.01;
+/// Part of its range, about the middle, that a trimmed control or incidence may use freely, and
+/// the excess that costs as much as a cell off by its wanted accuracy.
+const ROOM: f64 = 0.75;
+const EXCESS: f64 = 0.05;
+
+/// The tables and the vehicle that is to fill them.
+pub struct Model {
+    pub cells: Vec<Cell>,
+    pub origin: Origin,
+    data: Data,
+    columns: Vec<(Build, Body)>,
+}
+
+/// One point of the trade-off.
+#[derive(Debug, Clone)]
+pub struct Point {
+    pub weight: f64,
+    pub fit: Fit,
+}
+
+impl Point {
+    /// Sum over the cells of (relative error / wanted accuracy)^2.
+    pub fn misfit(&self) -> f64 {
+        self.fit.residual.norm_squared()
+    }
+
+    /// Sum over the numbers of (ln ratio / doubt)^2.
+    pub fn distance(&self) -> f64 {
+        self.fit.point.norm_squared()
+    }
+
+    /// Which numbers do not move.
+    fn held(&self) -> Vec<bool> {
+        self.fit.point.iter().map(|coordinate| *coordinate == 0.0).collect()
+    }
+}
+
+/// A vehicle that is trimmed even where its controls would not reach, so that the misfit has no
+/// edge there; [`excess`] makes up for it.
+fn unlimited(mut vehicle: Vehicle) -> Vehicle {
+    vehicle.limits = [f64::INFINITY; 2];
+    vehicle.aero.envelope.alpha = [f64::NEG_INFINITY, f64::INFINITY];
+    vehicle
+}
+
+/// How far a value is beyond its share of a range, over [`EXCESS`].
+fn excess(value: f64, [min, max]: [f64; 2]) -> f64 {
+    let off_middle = ((2.0 * value - min - max) / (max - min)).abs();
+    (off_middle - ROOM).max(0.0) / EXCESS
+}
+
+impl Model {
+    pub fn new() -> Result<Self> {
+        let data = Data::embedded()?;
+        let default = Parameters::new(&data).build;
+        let columns = COLUMNS
+            .into_iter()
+            .map(|configuration| {
+                let build = Build { configuration, ..default };
+                // The modes do not depend on the coefficients: solved once.
+                Body::new(&data, &build).map(|body| (build, body))
+            })
+            .collect::<Result<_, _>>()?;
+        Ok(Self { cells: cells()?, origin: Origin::new()?, data, columns })
+    }
+
+    fn trimmed(&self, set: &AeroData) -> Option<Vec<(Vehicle, Trim)>> {
+        let one = |(build, body): &(Build, Body)| {
+            let vehicle = unlimited(Vehicle::with_body(&self.data, build, body, set));
+            let trim = trim(&vehicle, &build.condition).ok()?;
+            Some((vehicle, trim))
+        };
+        self.columns.iter().map(one).collect()
+    }
+
+    /// What a coefficient set puts into the cells.
+    pub fn values(&self, set: &AeroData) -> Option<Vec<f64>> {
+        let columns = self.trimmed(set)?;
+        let values: Option<Vec<_>> = columns.iter().map(|(v, trim)| values(v, trim)).collect();
+        Some(values?.concat())
+    }
+
+    /// Incidence (rad), elevator (rad) and fuel ratio in trim, column by column.
+    pub fn trims(&self, set: &AeroData) -> Option<Vec<[f64; 3]>> {
+        let columns = self.trimmed(set)?;
+        Some(columns.iter().map(|(_, t)| [t.state[3], t.control[0], t.control[1]]).collect())
+    }
+
+    /// Errors over wanted accuracies of the cells that have one, then the excess of the trims.
+    fn residual(&self, point: &DVector<f64>) -> Option<DVector<f64>> {
+        let set = self.origin.moved(point)?;
+        let actuation = &self.data.vehicle.actuation;
+        let elevator = actuation.delta_e_limit_rad.value;
+        let ranges =
+            [set.envelope.alpha_rad.value, [-elevator, elevator], [0.0, actuation.phi_limit.value]];
+        let columns = self.trimmed(&set)?;
+        let (mut found, mut room) = (Vec::new(), Vec::new());
+        for (vehicle, trim) in &columns {
+            found.extend(values(vehicle, trim)?);
+            let trimmed = [trim.state[3], trim.control[0], trim.control[1]];
+            room.extend(trimmed.into_iter().zip(ranges).map(|(value, range)| excess(value, range)));
+        }
+        let errors = self.cells.iter().zip(found);
+        let scaled = errors.filter_map(|(cell, value)| Some(cell.error(value) / cell.wanted?));
+        Some(DVector::from_iterator(scaled.clone().count() + room.len(), scaled.chain(room)))
+    }
+
+    fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64) -> Result<Point> {
+        let fit = minimise(&|point| self.residual(point), start, held, weight)
+            .with_context(|| format!("weight {weight:.1e}"))?;
+        Ok(Point { weight, fit })
+    }
+
+    /// The branch of the trade-off that begins at the published set: each point starts from the one
+    /// before. It is followed until its knee is known, or to its end.
+    fn branch(&self, until_knee: bool) -> Result<Vec<Point>> {
+        let decades = (FIRST_WEIGHT / LAST_WEIGHT).log10().round() as i32;
+        let mut start = DVector::zeros(MOVABLE.len());
+        let mut path: Vec<Point> = Vec::new();
+        for step in 0..=decades * STEPS_PER_DECADE {
+            let weight = FIRST_WEIGHT * 10f64.powf(-f64::from(step) / f64::from(STEPS_PER_DECADE));
+            let point = self.fit(&start, &[false; MOVABLE.len()], weight)?;
+            start.copy_from(&point.fit.point);
+            path.push(point);
+            if until_knee && knee(&path).is_some() {
+                break;
+            }
+        }
+        Ok(path)
+    }
+
+    /// The point that is chosen, and nothing beyond it.
+    pub fn chosen(&self) -> Result<Point> {
+        let path = self.branch(true)?;
+        let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
+        self.sparse(&path[knee])
+    }
+
+    /// The whole trade-off and the index of its knee. Beyond the knee the path is gone back up as
+    /// well, and the better of two points stays: there are several valleys, far from the published
+    /// set, and there may be more.
+    pub fn path(&self) -> Result<(Vec<Point>, usize)> {
+        let mut path = self.branch(false)?;
+        let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
+        for i in (knee + 2..path.len() - 1).rev() {
+            let start = path[i + 1].fit.point.clone();
+            let other = self.fit(&start, &[false; MOVABLE.len()], path[i].weight)?;
+            let weight = path[i].weight;
+            if other.fit.cost(weight) < path[i].fit.cost(weight) {
+                path[i] = other;
+            }
+        }
+        Ok((path, knee))
+    }
+
+    /// The point again, with every number put back that would move by less than [`STAYS`].
+    pub fn sparse(&self, point: &Point) -> Result<Point> {
+        let mut sparse = point.clone();
+        loop {
+            let still = |(i, x): (usize, &f64)| (MOVABLE[i].1 * x).abs() < STAYS.ln_1p();
+            let held: Vec<bool> = sparse.fit.point.iter().enumerate().map(still).collect();
+            if held == sparse.held() {
+                return Ok(sparse);
+            }
+            let mut start = sparse.fit.point;
+            start.iter_mut().zip(&held).filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
+            sparse = self.fit(&start, &held, point.weight)?;
+        }
+    }
+
+    /// How the cells answer all numbers at a point, moved or not.
+    pub fn sensitivity(&self, point: &Point) -> Result<DMatrix<f64>> {
+        jacobian(&|p| self.residual(p), &point.fit.point, &[false; MOVABLE.len()])
+            .ok_or_else(|| anyhow!("no derivative at the solution"))
+    }
+}
+
+/// Curvature of ln misfit over ln distance at each point: one over the radius of the circle through
+/// it and its neighbours, positive where the curve bends up. The ends have none.
+pub fn bends(path: &[Point]) -> Vec<f64> {
+    let places: Vec<[f64; 2]> =
+        path.iter().map(|point| [point.distance().ln(), point.misfit().ln()]).collect();
+    let mut bends = vec![0.0; path.len()];
+    for (bend, window) in bends.iter_mut().skip(1).zip(places.windows(3)) {
+        *bend = curvature([window[0], window[1], window[2]]);
+    }
+    bends
+}
+
+/// The knee: the first place, coming from the published set, where the curve bends up more than at
+/// the next point. Later bends lie between valleys.
+fn knee(path: &[Point]) -> Option<usize> {
+    let bends = bends(path);
+    let inner = 1..path.len().saturating_sub(2);
+    inner.into_iter().find(|&i| bends[i] > 0.0 && bends[i] > bends[i + 1])
+}
+
+fn curvature([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let side = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    2.0 * area / (side(a, b) * side(b, c) * side(c, a))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curvature_of_a_circle_is_one_over_its_radius() {
+        let at = |angle: f64| [2.0 * angle.cos(), 2.0 * angle.sin()];
+        // The lower left of a circle, passed from the left to the right, is a knee.
+        let found = curvature([at(3.5), at(4.0), at(4.5)]);
+        assert!((found - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn room_in_trim_is_free() {
+        assert_eq!(excess(0.7, [-1.0, 1.0]), 0.0);
+        assert!((excess(-0.8, [-1.0, 1.0]) - 1.0).abs() < 1e-12);
+        assert!((excess(9.5, [0.0, 10.0]) - 3.0).abs() < 1e-12);
+    }
+}
