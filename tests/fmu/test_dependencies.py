@@ -47,7 +47,7 @@ MOVES = {
 ALSO_PARAMETERS = ("V", "h", "gamma")
 # The published set and the one with a plume under the aft-body: a claim holds if either needs it.
 AERO_SETS = (2, 3)
-# What the fuel does to the air forces there, and not in the oracle, which has the sets without plume.
+# What the fuel does to the air forces there, but not in the oracle, which knows no plume.
 PLUME = {("lift", "phi"), ("drag", "phi"), ("n_z", "phi")}
 LINEAR = 1e-9  # rounding of a difference quotient, relative
 
