@@ -221,10 +221,13 @@ pub struct Test {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 What can be identified:
+  beam     stiffness and tanks: the most ordinary ones that give Table 1; writes their numbers in
+           src/data/vehicle.toml
   xu2015   coefficient set: parker2007 moved as little as possible towards Tables 2 and 3;
            writes src/data/aero/xu2015.toml
 
 Examples:
+  cargo ahv identify beam --check      fail if the committed numbers are not what comes out
   cargo ahv identify xu2015            write the file; print trade-off, numbers and cells
   cargo ahv identify xu2015 --check    fail if the committed file is not what comes out
   cargo ahv identify xu2015 --json     the same for a program")]
@@ -241,6 +244,8 @@ pub struct Identify {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Identified {
+    #[value(help = "Stiffness of the beam, places and sizes of the tanks")]
+    Beam,
     #[value(help = "Coefficient set of eq. (4)")]
     Xu2015,
 }

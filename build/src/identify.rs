@@ -1,5 +1,6 @@
 //! Identification: numbers that are not published, from results that are.
 
+mod beam;
 mod cells;
 mod fit;
 mod numbers;
@@ -8,13 +9,31 @@ mod report;
 
 use crate::cli::{Identified, Identify};
 use crate::workspace::{read_text, root, shown, write};
+use ahv::params::VehicleData;
+use ahv::vehicle::Data;
 use anyhow::{Result, bail};
 use report::Report;
 
 pub fn run(options: &Identify) -> Result<()> {
     match options.what {
+        Identified::Beam => beam(options),
         Identified::Xu2015 => xu2015(options),
     }
+}
+
+fn beam(options: &Identify) -> Result<()> {
+    let name = "src/data/vehicle.toml";
+    let before = read_text(&root().join(name))?;
+    let vehicle = VehicleData::parse("vehicle.toml", &before)?;
+    let data = Data { vehicle, ..Data::embedded()? };
+    let model = beam::Model::new(data, beam::printed()?)?;
+    let solution = model.solve()?;
+    let text = beam::file(&before, &solution.vehicle)?;
+    VehicleData::parse("vehicle.toml", &text)?;
+    if !options.check {
+        println!("Distance from the prior: {:.4}", solution.fit.point.norm_squared());
+    }
+    settle(options, "beam", name, &text)
 }
 
 fn xu2015(options: &Identify) -> Result<()> {

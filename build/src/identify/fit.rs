@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 /// Central differences: the truncation error of a smooth residual is then below 1e-9.
 const STEP: f64 = 1e-5;
 /// A step this small changes no digit that is written.
-const CONVERGED: f64 = 1e-9;
+pub const CONVERGED: f64 = 1e-9;
 const MAX_STEPS: usize = 200;
 /// Damping of the first step, and how it changes after a success and a failure.
 const DAMPING: f64 = 1e-3;
@@ -27,16 +27,30 @@ pub struct Fit {
 }
 
 impl Fit {
-    fn at(residual: &Residual, point: DVector<f64>, held: &[bool]) -> Option<Self> {
+    /// None without an answer or its derivatives, or where it costs more than `limit`.
+    fn at(
+        residual: &Residual,
+        point: DVector<f64>,
+        held: &[bool],
+        weight: f64,
+        limit: f64,
+    ) -> Option<Self> {
         let value = residual(&point)?;
+        if cost(&value, &point, weight) > limit {
+            return None;
+        }
         let jacobian = jacobian(residual, &point, held)?;
         Some(Self { point, residual: value, jacobian })
     }
 
     /// r^2 + `weight` p^2.
     pub fn cost(&self, weight: f64) -> f64 {
-        self.residual.norm_squared() + weight * self.point.norm_squared()
+        cost(&self.residual, &self.point, weight)
     }
+}
+
+fn cost(residual: &DVector<f64>, point: &DVector<f64>, weight: f64) -> f64 {
+    residual.norm_squared() + weight * point.norm_squared()
 }
 
 /// d residual / d point. Directions in `held` are left at zero.
@@ -59,14 +73,16 @@ pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Opt
     Some(DMatrix::from_columns(&columns))
 }
 
-/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay.
+/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay. Ends with a step below
+/// `converged`.
 pub fn minimise(
     residual: &Residual,
     start: &DVector<f64>,
     held: &[bool],
     weight: f64,
+    converged: f64,
 ) -> Result<Fit> {
-    let mut fit = Fit::at(residual, start.clone(), held)
+    let mut fit = Fit::at(residual, start.clone(), held, weight, f64::INFINITY)
         .ok_or_else(|| anyhow!("the model has no answer where the identification starts"))?;
     let mut damping = DAMPING;
     for _ in 0..MAX_STEPS {
@@ -87,8 +103,7 @@ pub fn minimise(
                 .ok_or_else(|| anyhow!("the normal equations are singular"))?;
             step.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(s, _)| *s = 0.0);
             // A point without derivatives, at the edge of where there are answers, is none.
-            let better = Fit::at(residual, point + &step, held)
-                .filter(|next| next.cost(weight) <= fit.cost(weight));
+            let better = Fit::at(residual, point + &step, held, weight, fit.cost(weight));
             if better.is_some() || damping > STUCK {
                 break better.map(|next| (step, next));
             }
@@ -96,7 +111,7 @@ pub fn minimise(
         };
         let Some((step, next)) = improved else { break };
         fit = next;
-        if step.amax() < CONVERGED {
+        if step.amax() < converged {
             break;
         }
         damping *= RELAX;
@@ -114,9 +129,9 @@ mod tests {
             Some(DVector::from_vec(vec![10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]))
         };
         let start = DVector::from_vec(vec![-1.2, 1.0]);
-        let free = minimise(&valley, &start, &[false, false], 0.0).unwrap();
+        let free = minimise(&valley, &start, &[false, false], 0.0, CONVERGED).unwrap();
         assert!((free.point - DVector::from_element(2, 1.0)).amax() < 1e-6);
-        let held = minimise(&valley, &start, &[true, false], 0.0).unwrap();
+        let held = minimise(&valley, &start, &[true, false], 0.0, CONVERGED).unwrap();
         assert_eq!(held.point[0], -1.2);
         assert!((held.point[1] - 1.44).abs() < 1e-6);
     }
@@ -124,7 +139,7 @@ mod tests {
     #[test]
     fn a_weight_holds_back() {
         let line = |p: &DVector<f64>| Some(DVector::from_element(1, p[0] - 1.0));
-        let fit = minimise(&line, &DVector::zeros(1), &[false], 1.0).unwrap();
+        let fit = minimise(&line, &DVector::zeros(1), &[false], 1.0, CONVERGED).unwrap();
         assert!((fit.point[0] - 0.5).abs() < 1e-8);
     }
 }

@@ -1,7 +1,7 @@
 //! The trade-off between misfit and distance, and its knee.
 
 use super::cells::{COLUMNS, Cell, cells, values};
-use super::fit::{Fit, jacobian, minimise};
+use super::fit::{CONVERGED, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin};
 use ahv::dynamics::Vehicle;
 use ahv::parameters::Parameters;
@@ -125,7 +125,7 @@ impl Model {
     }
 
     fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64) -> Result<Point> {
-        let fit = minimise(&|point| self.residual(point), start, held, weight)
+        let fit = minimise(&|point| self.residual(point), start, held, weight, CONVERGED)
             .with_context(|| format!("weight {weight:.1e}"))?;
         Ok(Point { weight, fit })
     }

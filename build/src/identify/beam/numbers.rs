@@ -1,0 +1,163 @@
+//! The numbers of beam and tanks, their prior, and how they are written.
+//!
+//! A point is in units of doubt: each coordinate is 0 in the prior and costs its square.
+
+use ahv::beam::Beam;
+use ahv::params::VehicleData;
+use anyhow::{Context, Result, anyhow};
+use nalgebra::DVector;
+use toml_edit::{DocumentMut, Value};
+
+/// Stations of the stiffness; their level, their tilt and the second differences between.
+pub const STATIONS: usize = 9;
+/// Level, tilt and second differences; then the centres and lengths of the tanks.
+pub const COORDINATES: usize = STATIONS + 4;
+/// Coordinates of the tanks' centres.
+pub const CENTRES: [usize; 2] = [STATIONS, STATIONS + 1];
+
+/// Level of EI and its ratio from end to end: known to a factor of ten.
+const LEVEL: f64 = std::f64::consts::LN_10;
+/// Second difference of ln EI: a station may be a factor sqrt(2) off the geometric mean of its
+/// neighbours.
+const BEND: f64 = std::f64::consts::LN_2;
+/// Centre of a tank, over the length of its beam: halfway from the middle to the end.
+const CENTRE: f64 = 0.25;
+/// Length of a tank in the prior, over that of its beam, and the doubt of its logarithm.
+const FILLED: f64 = 0.5;
+const LENGTH: f64 = 0.5;
+
+/// First natural frequency of a uniform free-free beam: `omega = FREE_FREE sqrt(EI / (m l^4))`,
+/// Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1.
+const FREE_FREE: f64 = 22.3733;
+
+/// Digits that are written: stiffness, significant; lengths in mm; share.
+const DIGITS: usize = 5;
+const MILLIMETRES: f64 = 1e3;
+const SHARES: f64 = 1e4;
+
+/// The most ordinary vehicle with the published masses. Each of its two beams has a tank in its
+/// middle, half as long as the beam. EI is uniform and gives the first even frequency, were the mass
+/// uniform too. The shares of the tanks follow from their centres: the mass centre is published.
+#[derive(Debug, Clone)]
+pub struct Prior {
+    data: VehicleData,
+    stiffness: f64,
+    /// Fore and aft beam, m.
+    beams: [f64; 2],
+    /// Of the full vehicle, m.
+    mass_centre: f64,
+}
+
+impl Prior {
+    pub fn new(data: &VehicleData, first_rad_per_s: f64) -> Result<Self> {
+        let count = data.beam.stiffness_station_m.value.len();
+        if count != STATIONS {
+            return Err(anyhow!(
+                "vehicle.toml: beam.stiffness_station_m: {count} stations, `identify beam` takes {STATIONS}"
+            ));
+        }
+        let (length, joint) = (data.geometry.length_m.value, data.mass.beam_joint_m.value);
+        let beams = [joint, length - joint];
+        let fore = data.mass.fore_beam_kg_per_m2.value * beams[0];
+        let aft = data.mass.aft_beam_kg_per_m2.value * beams[1];
+        let speed = first_rad_per_s * length * length / FREE_FREE;
+        let stiffness = (fore + aft) / length * speed * speed;
+        let mass_centre = Beam::even(data, 1.0).mass_properties(&[]).centre_m;
+        Ok(Self { data: data.clone(), stiffness, beams, mass_centre })
+    }
+
+    /// ln EI at each station, per coordinate: level, tilt, then each second difference.
+    fn stiffness_slope(station: usize, coordinate: usize) -> f64 {
+        let last = STATIONS - 1;
+        match coordinate {
+            0 => LEVEL,
+            1 => LEVEL * (station as f64 / last as f64 - 0.5),
+            // Bends at station `knot`; without a part of level or tilt, so that these stay what
+            // they are called.
+            _ => BEND * Self::bend(coordinate - 1)[station],
+        }
+    }
+
+    /// A unit second difference at `knot`, less its straight line of best fit.
+    fn bend(knot: usize) -> [f64; STATIONS] {
+        let raw: [f64; STATIONS] = std::array::from_fn(|i| i.saturating_sub(knot) as f64);
+        let middle = (STATIONS - 1) as f64 / 2.0;
+        let arm = |i: usize| i as f64 - middle;
+        let mean = raw.iter().sum::<f64>() / STATIONS as f64;
+        let square: f64 = (0..STATIONS).map(|i| arm(i) * arm(i)).sum();
+        let tilt = (0..STATIONS).map(|i| arm(i) * raw[i]).sum::<f64>() / square;
+        std::array::from_fn(|i| raw[i] - mean - tilt * arm(i))
+    }
+
+    /// The vehicle at a point, with all digits.
+    pub fn vehicle(&self, point: &DVector<f64>) -> VehicleData {
+        let mut data = self.data.clone();
+        let slope = |i: usize| (0..STATIONS).map(move |k| Self::stiffness_slope(i, k) * point[k]);
+        data.beam.stiffness_n_m2_per_m.value =
+            (0..STATIONS).map(|i| self.stiffness * slope(i).sum::<f64>().exp()).collect();
+        let [fore, aft] = self.beams;
+        for (j, (start, beam)) in [(0.0, fore), (fore, aft)].into_iter().enumerate() {
+            let tank = &mut data.tank[j];
+            tank.centre_m.value = start + beam * (0.5 + CENTRE * point[STATIONS + j]);
+            tank.length_m.value = FILLED * beam * (LENGTH * point[STATIONS + 2 + j]).exp();
+        }
+        let [from, to] = [0, 1].map(|j| data.tank[j].centre_m.value);
+        let share = (to - self.mass_centre) / (to - from);
+        data.tank[0].share.value = share;
+        data.tank[1].share.value = 1.0 - share;
+        data
+    }
+
+    /// The point whose tank `j` has its middle at a station, m.
+    pub fn centre_coordinate(&self, j: usize, station_m: f64) -> f64 {
+        let start = [0.0, self.beams[0]][j];
+        ((station_m - start) / self.beams[j] - 0.5) / CENTRE
+    }
+}
+
+/// The numbers with the digits that are written.
+pub fn rounded(mut data: VehicleData) -> VehicleData {
+    let decimals = |value: &mut f64, unit: f64| *value = (*value * unit).round() / unit;
+    for value in &mut data.beam.stiffness_n_m2_per_m.value {
+        *value = format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(*value);
+    }
+    for tank in &mut data.tank {
+        decimals(&mut tank.length_m.value, MILLIMETRES);
+        decimals(&mut tank.centre_m.value, 1e2 * MILLIMETRES);
+    }
+    let [fore, aft] = &mut data.tank;
+    decimals(&mut fore.share.value, SHARES);
+    aft.share.value = 1.0 - fore.share.value;
+    decimals(&mut aft.share.value, SHARES);
+    data
+}
+
+/// The text of `vehicle.toml` with these numbers; all else stays.
+pub fn file(text: &str, data: &VehicleData) -> Result<String> {
+    let mut document: DocumentMut = text.parse().context("vehicle.toml")?;
+    let list: Vec<_> =
+        data.beam.stiffness_n_m2_per_m.value.iter().map(|ei| format!("{ei:e}")).collect();
+    let list = format!("[{}]", list.join(", "));
+    set(document["beam"]["stiffness_n_m2_per_m"].get_mut("value"), &list)?;
+    let tanks = document["tank"].as_array_of_tables_mut();
+    let tanks = tanks.ok_or_else(|| anyhow!("vehicle.toml: no [[tank]]"))?;
+    for (table, tank) in tanks.iter_mut().zip(&data.tank) {
+        for (key, value) in [
+            ("centre_m", tank.centre_m.value),
+            ("length_m", tank.length_m.value),
+            ("share", tank.share.value),
+        ] {
+            set(table[key].get_mut("value"), &format!("{value:?}"))?;
+        }
+    }
+    Ok(document.to_string())
+}
+
+fn set(item: Option<&mut toml_edit::Item>, text: &str) -> Result<()> {
+    let value = item.and_then(toml_edit::Item::as_value_mut);
+    let value = value.ok_or_else(|| anyhow!("vehicle.toml: a number without value"))?;
+    let decor = value.decor().clone();
+    *value = text.parse::<Value>()?;
+    *value.decor_mut() = decor;
+    Ok(())
+}
