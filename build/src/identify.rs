@@ -30,8 +30,13 @@ fn beam(options: &Identify) -> Result<()> {
     let solution = model.solve()?;
     let text = beam::file(&before, &solution.vehicle)?;
     VehicleData::parse("vehicle.toml", &text)?;
-    if !options.check {
-        println!("Distance from the prior: {:.4}", solution.fit.point.norm_squared());
+    if options.json || !options.check {
+        let report = beam::Report::new(&model, &solution)?;
+        if options.json {
+            println!("{}", serde_json::to_string_pretty(&report)?);
+        } else {
+            print!("{}", report.text());
+        }
     }
     settle(options, "beam", name, &text)
 }

@@ -2,6 +2,10 @@
 
 mod model;
 mod numbers;
+mod report;
+#[cfg(test)]
+mod tests;
 
 pub use model::{Model, printed};
 pub use numbers::file;
+pub use report::Report;

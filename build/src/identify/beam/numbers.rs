@@ -25,7 +25,6 @@ const CENTRE: f64 = 0.25;
 /// Length of a tank in the prior, over that of its beam, and the doubt of its logarithm.
 const FILLED: f64 = 0.5;
 const LENGTH: f64 = 0.5;
-
 /// First natural frequency of a uniform free-free beam: `omega = FREE_FREE sqrt(EI / (m l^4))`,
 /// Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1.
 const FREE_FREE: f64 = 22.3733;
@@ -113,6 +112,50 @@ impl Prior {
         let start = [0.0, self.beams[0]][j];
         ((station_m - start) / self.beams[j] - 0.5) / CENTRE
     }
+}
+
+/// What a doubt of a number refers to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// The natural logarithm.
+    Ratio,
+    /// The number itself.
+    Difference,
+}
+
+/// Name, unit and scale of the numbers, in the order of [`values`].
+pub fn names() -> Vec<(String, &'static str, Scale)> {
+    let stiffness = (0..STATIONS).map(|i| (format!("EI at station {i}"), EI, Scale::Ratio));
+    let tanks = ["fore", "aft"].into_iter().flat_map(|name| {
+        [
+            (format!("{name} tank, centre"), "m", Scale::Difference),
+            (format!("{name} tank, length"), "m", Scale::Ratio),
+        ]
+    });
+    let share = ("fore tank, share".to_string(), "1", Scale::Difference);
+    stiffness.chain(tanks).chain([share]).collect()
+}
+
+const EI: &str = "N m^2/m";
+
+/// The numbers of a vehicle; the share of the aft tank is the rest.
+pub fn values(data: &VehicleData) -> Vec<f64> {
+    let tanks = data.tank.iter().flat_map(|tank| [tank.centre_m.value, tank.length_m.value]);
+    let stiffness = data.beam.stiffness_n_m2_per_m.value.iter().copied();
+    stiffness.chain(tanks).chain([data.tank[0].share.value]).collect()
+}
+
+/// A vehicle with other numbers, in the order of [`values`].
+pub fn with_values(mut data: VehicleData, values: &[f64]) -> VehicleData {
+    data.beam.stiffness_n_m2_per_m.value = values[..STATIONS].to_vec();
+    for (tank, pair) in data.tank.iter_mut().zip(values[STATIONS..].chunks(2)) {
+        tank.centre_m.value = pair[0];
+        tank.length_m.value = pair[1];
+    }
+    let share = values[STATIONS + 4];
+    data.tank[0].share.value = share;
+    data.tank[1].share.value = 1.0 - share;
+    data
 }
 
 /// The numbers with the digits that are written.

@@ -1,0 +1,86 @@
+//! Known numbers come back, and slopes are those of Rayleigh's quotient.
+
+use super::model::{FREQUENCIES, Model, printed};
+use super::numbers::{COORDINATES, STATIONS, rounded, values};
+use super::report::sensitivity;
+use crate::identify::fit::minimise;
+use ahv::modes::{FLEXIBLE, Modes};
+use ahv::parameters::Parameters;
+use ahv::vehicle::{Build, Configuration, Data, structure};
+use nalgebra::DVector;
+
+fn model() -> Model {
+    Model::new(Data::embedded().unwrap(), printed().unwrap()).unwrap()
+}
+
+/// Level, tilt, the bend amidships, both centres and a length: as many as there are frequencies.
+const FREE: [usize; FREQUENCIES] = [0, 1, 4, 9, 10, 11];
+
+#[test]
+fn six_numbers_come_back_from_six_frequencies() {
+    let mut truth = DVector::zeros(COORDINATES);
+    for (i, value) in FREE.into_iter().zip([-0.1, 0.15, 0.3, -0.2, 0.25, 0.3]) {
+        truth[i] = value;
+    }
+    // The first even frequency sets the prior: that of the table, to stay with the same one.
+    let mut model = model();
+    let vehicle = model.prior.vehicle(&truth);
+    model.wanted = model.frequencies(&vehicle).unwrap();
+    let held: Vec<_> = (0..COORDINATES).map(|i| !FREE.contains(&i)).collect();
+    let mut point = DVector::zeros(COORDINATES);
+    for weight in [1e6, 1e4, 1e2, 1.0, 1e-4] {
+        let fit = minimise(&|p| model.residual(p), &point, &held, weight, 1e-7).unwrap();
+        point = fit.point;
+    }
+    assert!((&point - &truth).amax() < 1e-4, "{point} is not {truth}");
+}
+
+/// By Rayleigh's quotient, d ln omega / d ln EI over all stations adds up to half of the share of
+/// the strain energy that is in the beam.
+#[test]
+fn slopes_by_stiffness_add_up_to_half_of_the_beams_energy() {
+    let data = Data::embedded().unwrap();
+    let model = model();
+    let slopes = sensitivity(&model, &data.vehicle).unwrap();
+    let build = Parameters::new(&data).build;
+    let columns = [Configuration::EvenMassBeam, Configuration::SloshBeam];
+    for (column, configuration) in columns.into_iter().enumerate() {
+        let (beam, oscillators) = structure(&data, &Build { configuration, ..build }).unwrap();
+        let modes = Modes::solve(&beam, &oscillators).unwrap();
+        for mode in 0..FLEXIBLE {
+            let row = slopes.row(column * FLEXIBLE + mode);
+            let sum: f64 = row.columns(0, STATIONS).sum();
+            let truth = modes.beam_energy_share[mode] / 2.0;
+            assert!((sum - truth).abs() < 1e-7, "{configuration:?}, {mode}: {sum} is not {truth}");
+        }
+        if configuration == Configuration::EvenMassBeam {
+            let tanks = slopes.view((0, STATIONS), (FLEXIBLE, slopes.ncols() - STATIONS));
+            assert_eq!(tanks.amax(), 0.0, "tanks move no even frequency");
+        }
+    }
+}
+
+/// The slopes foretell what a change of a per cent does.
+#[test]
+fn slopes_are_those_of_finite_changes() {
+    let data = Data::embedded().unwrap();
+    let model = model();
+    let slopes = sensitivity(&model, &data.vehicle).unwrap();
+    let before = model.frequencies(&data.vehicle).unwrap();
+    let mut moved = data.vehicle.clone();
+    moved.beam.stiffness_n_m2_per_m.value[4] *= 1.01;
+    let after = model.frequencies(&moved).unwrap();
+    for i in 0..FREQUENCIES {
+        let (change, told) = ((after[i] / before[i]).ln(), slopes[(i, 4)] * 1.01_f64.ln());
+        // The second derivative leaves a per cent of it.
+        assert!((change - told).abs() < 0.02 * told.abs() + 1e-6, "{change} is not {told}");
+    }
+}
+
+#[test]
+fn a_file_that_is_already_right_stays_as_it_is() {
+    let data = Data::embedded().unwrap().vehicle;
+    let text = ahv::params::VEHICLE_TOML;
+    assert_eq!(values(&rounded(data.clone())), values(&data));
+    assert_eq!(super::file(text, &data).unwrap(), text);
+}
