@@ -5,6 +5,7 @@ use crate::dynamics::{Control, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, System};
 use crate::parameters::{InputMode, Parameters};
+use crate::scalar::Dual;
 use crate::trim::{Trim, trim};
 use crate::vehicle::Data;
 use std::sync::Arc;
@@ -209,13 +210,17 @@ impl Flight {
         Ok(())
     }
 
-    /// Controls in effect: with the trim where the inputs are deviations, cut to the actuators'
-    /// limits.
-    fn control(&self, ready: &Ready) -> Control {
+    /// Absolute controls that are asked for: with the trim where the inputs are deviations.
+    fn wanted(&self, ready: &Ready) -> Control {
         let deviation =
             self.parameters.trim && self.parameters.input_mode == InputMode::DeviationFromTrim;
         let base = if deviation { ready.trim.control } else { [0.0; 2] };
-        ready.vehicle.saturate([base[0] + self.inputs[0], base[1] + self.inputs[1]])
+        [base[0] + self.inputs[0], base[1] + self.inputs[1]]
+    }
+
+    /// Controls in effect: cut to the actuators' limits.
+    fn control(&self, ready: &Ready) -> Control {
+        ready.vehicle.saturate(self.wanted(ready))
     }
 
     /// Outputs and derivatives at the current instant, computed once per state and input.
@@ -235,6 +240,39 @@ impl Flight {
             self.sample = Some(Sample { outputs, derivatives, control });
         }
         Ok(())
+    }
+
+    /// The change of everything that is shown, for a change of the state and of the inputs: a flight
+    /// whose numbers are derivatives, exact by dual numbers. Parameters and what is computed from
+    /// them alone do not change and are not to be read from it.
+    ///
+    /// A control beyond its limit answers nothing.
+    ///
+    /// # Errors
+    /// Those of [`Flight::initialise`], if the flight is not initialised yet.
+    pub fn tangent(&mut self, change: &State, input_change: &Control) -> Result<Self, Error> {
+        self.initialise()?;
+        let mut tangent = self.clone();
+        tangent.state = *change;
+        tangent.inputs = *input_change;
+        tangent.slope = None;
+        tangent.sample = self.ready.as_ref().map(|ready| {
+            let vehicle = &ready.vehicle;
+            let (wanted, control) = (self.wanted(ready), self.control(ready));
+            let control_change = std::array::from_fn(|i| {
+                let [min, max] = vehicle.ranges()[i];
+                if (min..=max).contains(&wanted[i]) { input_change[i] } else { 0.0 }
+            });
+            let x = std::array::from_fn(|i| Dual { re: self.state[i], eps: [change[i]] });
+            let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
+            let along = |dual: Dual<1>| dual.eps[0];
+            Sample {
+                outputs: vehicle.outputs(&x, &u).map(along),
+                derivatives: vehicle.derivatives(&x, &u).map(along),
+                control: control_change,
+            }
+        });
+        Ok(tangent)
     }
 
     /// What was last evaluated, if it still holds.

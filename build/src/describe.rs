@@ -103,7 +103,7 @@ fn co_simulation(xml: &mut Xml) -> io::Result<()> {
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ];
     xml.leaf("CoSimulation", &attributes.map(|(key, value)| (key, value.to_string())))
 }

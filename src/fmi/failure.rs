@@ -69,6 +69,22 @@ pub enum Failure {
         /// The refused value.
         value: f64,
     },
+    /// A derivative with respect to, or of, what is not served.
+    #[error("{variable} is not served {served}")]
+    NoDerivative {
+        /// Name of the variable.
+        variable: &'static str,
+        /// What is served in its place.
+        served: &'static str,
+    },
+    /// A direction that is no number.
+    #[error("change of {variable} = {value} is refused: a finite number is needed")]
+    Seed {
+        /// Name of the variable.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
     /// The model gives no number for a variable: it is never handed on.
     #[error("{variable} = {value}: the model has no finite value here")]
     NotFinite {

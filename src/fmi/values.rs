@@ -1,5 +1,6 @@
 //! Reading and setting variables: a call with several references does all or nothing.
 
+use crate::dynamics::{Control, INPUTS, STATES, State};
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Phase;
@@ -152,16 +153,61 @@ impl Instance {
 
     /// `fmi2GetDirectionalDerivative`: changes of `unknowns` for the changes `seed` of `knowns`.
     ///
+    /// Unknowns are states, outputs and derivatives; knowns are states and inputs. Exact, by dual
+    /// numbers; a reference that stands twice among the knowns counts twice.
+    ///
     /// # Errors
-    /// [`Failure::NotProvided`].
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::NoDerivative`],
+    /// [`Failure::Seed`]; [`Failure::Model`] if the model cannot be evaluated,
+    /// [`Failure::NotFinite`]. No value is written then.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
-        _knowns: &[u32],
-        _seed: &[f64],
-        _write: impl FnMut(usize, f64),
+        knowns: &[u32],
+        seed: &[f64],
+        write: impl FnMut(usize, f64),
     ) -> Outcome {
-        provided_for(unknowns, "providesDirectionalDerivative = false")
+        let (mut state, mut input) = ([0.0; STATES], [0.0; INPUTS]);
+        for (&reference, &change) in knowns.iter().zip(seed) {
+            let known = variable(reference, REAL)?;
+            if !change.is_finite() {
+                return Err(Failure::Seed { variable: known.name, value: change });
+            }
+            match known.role {
+                Role::OutputState(i) | Role::LocalState(i) => state[i] += change,
+                Role::Input(i) => input[i] += change,
+                _ => return Err(no_derivative(known, "as known: states and inputs are")),
+            }
+        }
+        self.tangent(unknowns, &state, &input, write)
+    }
+
+    /// Hands out what changes along a change of state and inputs.
+    fn tangent(
+        &mut self,
+        unknowns: &[u32],
+        state: &State,
+        input: &Control,
+        mut write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        if unknowns.is_empty() {
+            return Ok(());
+        }
+        let tangent = self.flight.tangent(state, input)?;
+        for &reference in unknowns {
+            let unknown = variable(reference, REAL)?;
+            if matches!(unknown.role, Role::Input(_) | Role::Parameter | Role::Calculated) {
+                return Err(no_derivative(unknown, "as unknown: states, outputs and rates are"));
+            }
+            let value = unknown.get(&tangent);
+            if !value.is_finite() {
+                return Err(Failure::NotFinite { variable: unknown.name, value });
+            }
+        }
+        for (i, &reference) in unknowns.iter().enumerate() {
+            write(i, variable(reference, REAL)?.get(&tangent));
+        }
+        Ok(())
     }
 
     /// `fmi2SetRealInputDerivatives`.
@@ -179,6 +225,10 @@ impl Instance {
     pub fn output_derivatives(&mut self, outputs: &[u32]) -> Outcome {
         provided_for(outputs, "maxOutputDerivativeOrder = 0")
     }
+}
+
+fn no_derivative(variable: &Variable, served: &'static str) -> Failure {
+    Failure::NoDerivative { variable: variable.name, served }
 }
 
 /// Asking an absent capability for nothing is no error.
