@@ -236,20 +236,6 @@ fn values_read_after_setting_an_input_fit_that_input_without_a_step() {
 }
 
 #[test]
-fn absent_capabilities_are_refused_by_name_unless_nothing_is_asked() {
-    let api = Api::load();
-    let slave = Slave::flying(&api);
-    let (c, u, y) = (slave.c, reference("delta_e"), reference("V"));
-    // SAFETY: arrays of one element.
-    unsafe {
-        assert_eq!((api.set_input_derivatives)(c, &u, 1, &1, &0.0), Status::Error);
-        assert!(slave.message().message.contains("canInterpolateInputs"));
-        assert_eq!((api.get_output_derivatives)(c, &y, 1, &1, &mut 0.0), Status::Error);
-        assert!(slave.message().message.contains("maxOutputDerivativeOrder"));
-    }
-}
-
-#[test]
 fn directional_derivatives_write_all_or_nothing_and_name_what_they_refuse() {
     let api = Api::load();
     let slave = Slave::flying(&api);

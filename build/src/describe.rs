@@ -97,8 +97,8 @@ fn co_simulation(xml: &mut Xml) -> io::Result<()> {
     let attributes = [
         ("modelIdentifier", MODEL_IDENTIFIER),
         ("canHandleVariableCommunicationStepSize", "true"),
-        ("canInterpolateInputs", "false"),
-        ("maxOutputDerivativeOrder", "0"),
+        ("canInterpolateInputs", "true"),
+        ("maxOutputDerivativeOrder", "1"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),

@@ -77,7 +77,17 @@ pub enum Failure {
         /// What is served in its place.
         served: &'static str,
     },
-    /// A direction that is no number.
+    /// A derivative of an order that is not served.
+    #[error("derivative {order} of {variable} is not served: orders are 1 to {highest}")]
+    Order {
+        /// Name of the variable.
+        variable: &'static str,
+        /// The refused order.
+        order: i32,
+        /// The highest order there is.
+        highest: usize,
+    },
+    /// A direction or derivative that is no number.
     #[error("change of {variable} = {value} is refused: a finite number is needed")]
     Seed {
         /// Name of the variable.

@@ -1,5 +1,6 @@
 //! One instance: its experiment, its steps and its status.
 
+use crate::dynamics::STATES;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
 use crate::fmi::failure::{Failure, Outcome};
@@ -7,6 +8,7 @@ use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
+use crate::variables::{TABLE, known_rows};
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this
@@ -194,6 +196,13 @@ impl Instance {
         // A step below the resolution of time ends where it starts.
         if end == time {
             return Ok(());
+        }
+        let (inputs, rows) = (self.flight.inputs().at(end - time), known_rows());
+        if let Some(i) = inputs.iter().position(|input| !input.is_finite()) {
+            return Err(Failure::NotFinite {
+                variable: TABLE[rows[STATES + i]].name,
+                value: inputs[i],
+            });
         }
         match self.flight.advance(end) {
             Ok(()) => Ok(()),

@@ -13,9 +13,9 @@
 //! | `abi` | the exported functions: the only unsafe code of the crate |
 //!
 //! What the model description has to say about this code: `canHandleVariableCommunicationStepSize`,
-//! `canGetAndSetFMUstate`, `canSerializeFMUstate`, `providesDirectionalDerivative` and
-//! `canNotUseMemoryManagementFunctions` are true; input interpolation and output derivatives are not
-//! provided.
+//! `canInterpolateInputs`, `canGetAndSetFMUstate`, `canSerializeFMUstate`,
+//! `providesDirectionalDerivative` and `canNotUseMemoryManagementFunctions` are true,
+//! `maxOutputDerivativeOrder` is 1.
 //!
 //! Steps are synchronous: `fmi2DoStep` never returns `fmi2Pending`, so there is nothing to cancel
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
