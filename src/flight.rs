@@ -180,6 +180,32 @@ impl Flight {
         &self.state
     }
 
+    /// Moves to another instant, as an integrator from outside does.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Puts the flight into another state, as an integrator from outside does.
+    pub fn set_state(&mut self, state: &State) {
+        self.state = *state;
+        self.slope = None;
+        self.sample = None;
+    }
+
+    /// Whether the curve fits hold here.
+    ///
+    /// # Errors
+    /// [`Error::Envelope`] if they do not; those of [`Flight::initialise`].
+    pub fn check(&mut self) -> Result<(), Error> {
+        self.initialise()?;
+        match self.vehicle() {
+            Some(vehicle) if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &self.state) => {
+                Err(left(vehicle, &self.state, self.time))
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Vehicle, once initialised.
     pub fn vehicle(&self) -> Option<&Vehicle> {
         self.ready.as_ref().map(|ready| &ready.vehicle)

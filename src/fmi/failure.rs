@@ -155,6 +155,23 @@ pub enum Failure {
         /// The categories there are.
         known: String,
     },
+    /// A state that an instance for the other interface was in.
+    #[error(
+        "the FMU state is one of {phase}: it cannot go on where co-simulation and model exchange \
+         differ"
+    )]
+    OtherInterface {
+        /// State of the instance that it was taken of.
+        phase: Phase,
+    },
+    /// The master's integrator tries a state for which the model has no numbers.
+    #[error("{variable} = {value}: the model has no finite value at this trial state")]
+    Trial {
+        /// Name of the variable.
+        variable: &'static str,
+        /// What was computed.
+        value: f64,
+    },
     /// Bytes that are no FMU state of this model.
     #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
     Bytes {
@@ -170,7 +187,7 @@ impl Failure {
     /// go on with a value that was not taken.
     pub fn status(&self) -> Status {
         match self {
-            Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
+            Self::Incomplete(_) | Self::NoStatus { .. } | Self::Trial { .. } => Status::Discard,
             _ => Status::Error,
         }
     }
