@@ -27,7 +27,7 @@ STEP, STEPS = 0.01, 100
 # tolerance of 1e-8 keeps the demanded 1e-7.
 RUN = {None: 1e-7, 1e-10: 2e-8}
 # Least excursion, m/s: the integrator's tolerance counts from |x| + nominal, and more fuel moves
-# the third mode by half its nominal rate of 5e-3 m/s in shock_expansion, whose plume bends the beam.
+# the third mode by half its nominal rate in shock_expansion, whose plume bends the beam.
 LEAST_EXCURSION = {"eta3_dot": 5e-3}
 # Rates and outputs at the same state and input: rounding, relative to the variable's largest value.
 POINTWISE = 1e-11
