@@ -54,10 +54,10 @@ impl Polynomial {
         (delta_e * delta_e * bend + 1.0) * delta_e
     }
 
-    /// d/da of the body part, per rad.
-    pub fn slope(&self, alpha: f64) -> f64 {
+    /// d/da of the whole polynomial, per rad.
+    pub fn slope(&self, alpha: f64, delta_e: f64) -> f64 {
         let [_, c1, c2, c3] = self.alpha;
-        (3.0 * c3 * alpha + 2.0 * c2) * alpha + c1
+        (3.0 * c3 * alpha + 2.0 * c2) * alpha + c1 + self.cross * delta_e
     }
 }
 

@@ -160,7 +160,9 @@ pub fn derive(
     let answer = |f: &dyn Fn(&Means) -> f64| {
         surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>() * scale
     };
-    let drag_per_lift = aero.drag.slope(aero.elastic_alpha) / aero.lift.slope(aero.elastic_alpha);
+    let [drag_slope, lift_slope] =
+        [&aero.drag, &aero.lift].map(|fit| fit.slope(aero.elastic_alpha, aero.elastic_delta_e));
+    let drag_per_lift = drag_slope / lift_slope;
     let shift = mass_centre - aero.moment_centre;
 
     let mut elastic = Elastic::default();

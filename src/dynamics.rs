@@ -86,6 +86,33 @@ pub struct Outputs<S = f64> {
     pub n_z: S,
 }
 
+impl<S: Copy> Loads<S> {
+    /// Each quantity by itself.
+    fn map<T>(self, f: impl Fn(S) -> T) -> Loads<T> {
+        Loads {
+            qbar: f(self.qbar),
+            mach: f(self.mach),
+            lift: f(self.lift),
+            drag: f(self.drag),
+            thrust: f(self.thrust),
+            moment: f(self.moment),
+            normal: f(self.normal),
+        }
+    }
+}
+
+impl<S: Copy> Outputs<S> {
+    /// Each quantity by itself, for example the derivative out of a dual number.
+    pub fn map<T>(self, f: impl Fn(S) -> T) -> Outputs<T> {
+        Outputs {
+            loads: self.loads.map(&f),
+            theta: f(self.theta),
+            slosh: self.slosh.map(&f),
+            n_z: f(self.n_z),
+        }
+    }
+}
+
 impl Vehicle {
     /// Number of states in use: 5, 11 or 15.
     pub fn states(&self) -> usize {
@@ -199,9 +226,15 @@ impl Vehicle {
         Outputs { loads, theta: x[2] + x[3], slosh, n_z: loads.normal * (1.0 / weight) }
     }
 
+    /// Smallest and largest elevator deflection (rad) and fuel equivalence ratio.
+    pub fn ranges(&self) -> Control<[f64; 2]> {
+        let [delta_e, phi] = self.limits;
+        [[-delta_e, delta_e], [0.0, phi]]
+    }
+
     /// Controls cut to what the actuators can do.
     pub fn saturate(&self, u: Control) -> Control {
-        let [delta_e, phi] = self.limits;
-        [u[0].clamp(-delta_e, delta_e), u[1].clamp(0.0, phi)]
+        let [[least, largest], [lean, rich]] = self.ranges();
+        [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
     }
 }

@@ -1,5 +1,12 @@
 //! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
 
+mod inputs;
+mod snapshot;
+mod tangent;
+
+pub use inputs::{INPUT_ORDER, Inputs};
+pub use snapshot::Snapshot;
+
 use crate::dop853::DOP853;
 use crate::dynamics::{Control, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
@@ -13,23 +20,6 @@ use std::sync::Arc;
 pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 /// First guess of the integrator's step, s: a tenth of a radian of the fastest mode.
 const FIRST_STEP: f64 = 1e-3;
-
-/// All that a flight remembers: plain numbers, enough to restore it elsewhere bit for bit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Snapshot {
-    /// Parameters.
-    pub parameters: Parameters,
-    /// Inputs as they were set.
-    pub inputs: Control,
-    /// State.
-    pub state: State,
-    /// Time, s.
-    pub time: f64,
-    /// Tolerance and step proposal.
-    pub integrator: Integrator,
-    /// Whether the initial state has been computed.
-    pub initialised: bool,
-}
 
 /// What a flight shows at an instant.
 #[derive(Debug, Clone, Copy)]
@@ -48,7 +38,7 @@ pub struct Sample {
 pub struct Flight {
     data: Arc<Data>,
     parameters: Parameters,
-    inputs: Control,
+    inputs: Inputs,
     time: f64,
     integrator: Integrator,
     state: State,
@@ -66,18 +56,34 @@ struct Ready {
     trim: Trim,
 }
 
-/// A vehicle under constant controls.
-struct Held<'a> {
+/// A vehicle under the controls of one step.
+struct Steered<'a> {
     vehicle: &'a Vehicle,
-    control: Control,
+    /// What the inputs are added to.
+    base: Control,
+    inputs: &'a Inputs,
+    /// Controls in effect, if they do not move.
+    held: Option<Control>,
 }
 
-impl System<STATES> for Held<'_> {
+impl Steered<'_> {
+    /// Controls in effect after a time (s) of the step, cut to the actuators' limits.
+    #[inline]
+    fn control(&self, t: f64) -> Control {
+        self.held.unwrap_or_else(|| in_effect(self.vehicle, &self.base, &self.inputs.at(t)))
+    }
+}
+
+fn in_effect(vehicle: &Vehicle, base: &Control, inputs: &Control) -> Control {
+    vehicle.saturate([base[0] + inputs[0], base[1] + inputs[1]])
+}
+
+impl System<STATES> for Steered<'_> {
     fn states(&self) -> usize {
         self.vehicle.states()
     }
-    fn derivatives(&self, _: f64, x: &State) -> State {
-        self.vehicle.derivatives(x, &self.control)
+    fn derivatives(&self, t: f64, x: &State) -> State {
+        self.vehicle.derivatives(x, &self.control(t))
     }
     fn holds(&self, x: &State) -> bool {
         self.vehicle.aero.envelope.holds(&self.vehicle.atmosphere, x)
@@ -116,7 +122,7 @@ impl Flight {
         Ok(Self {
             parameters: Parameters::new(&data),
             data,
-            inputs: [0.0; 2],
+            inputs: Inputs::ZERO,
             time: 0.0,
             integrator: Integrator::new(DEFAULT_TOLERANCE, FIRST_STEP),
             state: [0.0; STATES],
@@ -140,17 +146,22 @@ impl Flight {
     }
 
     /// Inputs as they were set.
-    pub fn inputs(&self) -> &Control {
+    pub fn inputs(&self) -> &Inputs {
         &self.inputs
     }
 
     /// Sets one input: 0 elevator (rad), 1 fuel ratio.
     pub fn set_input(&mut self, index: usize, value: f64) {
-        if self.inputs[index] != value {
-            self.inputs[index] = value;
+        if self.inputs.values[index] != value {
             self.slope = None;
             self.sample = None;
         }
+        self.inputs.set(index, value);
+    }
+
+    /// Sets a derivative of one input for the next step; orders from 1 to [`INPUT_ORDER`].
+    pub fn set_input_derivative(&mut self, index: usize, order: usize, value: f64) {
+        self.inputs.set_derivative(index, order, value);
     }
 
     /// Start time (s) and relative tolerance of the integration.
@@ -167,6 +178,32 @@ impl Flight {
     /// State; zeros before initialisation.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Moves to another instant, as an integrator from outside does.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Puts the flight into another state, as an integrator from outside does.
+    pub fn set_state(&mut self, state: &State) {
+        self.state = *state;
+        self.slope = None;
+        self.sample = None;
+    }
+
+    /// Whether the curve fits hold here.
+    ///
+    /// # Errors
+    /// [`Error::Envelope`] if they do not; those of [`Flight::initialise`].
+    pub fn check(&mut self) -> Result<(), Error> {
+        self.initialise()?;
+        match self.vehicle() {
+            Some(vehicle) if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &self.state) => {
+                Err(left(vehicle, &self.state, self.time))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Vehicle, once initialised.
@@ -209,13 +246,16 @@ impl Flight {
         Ok(())
     }
 
-    /// Controls in effect: with the trim where the inputs are deviations, cut to the actuators'
-    /// limits.
-    fn control(&self, ready: &Ready) -> Control {
+    /// What the inputs are added to: the trim where they are deviations.
+    fn base(&self, ready: &Ready) -> Control {
         let deviation =
             self.parameters.trim && self.parameters.input_mode == InputMode::DeviationFromTrim;
-        let base = if deviation { ready.trim.control } else { [0.0; 2] };
-        ready.vehicle.saturate([base[0] + self.inputs[0], base[1] + self.inputs[1]])
+        if deviation { ready.trim.control } else { [0.0; 2] }
+    }
+
+    /// Controls in effect: cut to the actuators' limits.
+    fn control(&self, ready: &Ready) -> Control {
+        in_effect(&ready.vehicle, &self.base(ready), &self.inputs.values)
     }
 
     /// Outputs and derivatives at the current instant, computed once per state and input.
@@ -242,7 +282,8 @@ impl Flight {
         self.sample.as_ref()
     }
 
-    /// Flies until `end` (s) under constant inputs, exactly.
+    /// Flies until `end` (s), exactly. Inputs are constant, or follow the derivatives that were given
+    /// for this step.
     ///
     /// # Errors
     /// [`Error::Envelope`] on leaving the region where the curve fits hold: time and state are then
@@ -250,15 +291,26 @@ impl Flight {
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
         self.initialise()?;
         let Some(ready) = &self.ready else { return Ok(()) };
-        let held = Held { vehicle: &ready.vehicle, control: self.control(ready) };
+        let steered = Steered {
+            vehicle: &ready.vehicle,
+            base: self.base(ready),
+            inputs: &self.inputs,
+            held: (!self.inputs.moving()).then(|| self.control(ready)),
+        };
+        let length = end - self.time;
         let arrival = self.integrator.advance(
             &DOP853,
-            &held,
+            &steered,
             &mut self.state,
             // Counted from here, so that a late start costs no digits.
-            [0.0, end - self.time],
+            [0.0, length],
             &mut self.slope,
         );
+        let flown = match arrival {
+            Arrival::Complete => length,
+            Arrival::Left(flown) | Arrival::Stuck(flown) => flown,
+        };
+        self.inputs = self.inputs.after(flown);
         self.sample = None;
         match arrival {
             Arrival::Complete => {
@@ -274,51 +326,5 @@ impl Flight {
                 Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
             }
         }
-    }
-
-    /// All that has to be remembered.
-    pub fn snapshot(&self) -> Snapshot {
-        Snapshot {
-            parameters: self.parameters,
-            inputs: self.inputs,
-            state: self.state,
-            time: self.time,
-            integrator: self.integrator,
-            initialised: self.ready.is_some(),
-        }
-    }
-
-    /// The flight that a snapshot was taken of, bit for bit.
-    ///
-    /// # Errors
-    /// Those of [`Flight::initialise`].
-    pub fn restore(snapshot: &Snapshot) -> Result<Self, Error> {
-        let mut flight = Self::new()?;
-        flight.rewind(snapshot)?;
-        Ok(flight)
-    }
-
-    /// Becomes the flight that a snapshot was taken of, bit for bit. A vehicle with the same
-    /// parameters is kept: a master that repeats steps does this often.
-    ///
-    /// # Errors
-    /// Those of [`Flight::initialise`]; the flight is then as it was.
-    pub fn rewind(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        let kept = snapshot.initialised && self.parameters == snapshot.parameters;
-        if !(kept && self.ready.is_some()) {
-            let mut flight = self.clone();
-            flight.change(|parameters| *parameters = snapshot.parameters);
-            if snapshot.initialised {
-                flight.initialise()?;
-            }
-            *self = flight;
-        }
-        self.inputs = snapshot.inputs;
-        self.state = snapshot.state;
-        self.time = snapshot.time;
-        self.integrator = snapshot.integrator;
-        self.slope = None;
-        self.sample = None;
-        Ok(())
     }
 }

@@ -33,6 +33,7 @@ fn c_type(rust: &str) -> String {
         "Type" => "fmi2Type",
         "StatusKind" => "fmi2StatusKind",
         "CallbackFunctions" => "fmi2CallbackFunctions",
+        "EventInfo" => "fmi2EventInfo",
         other => panic!("no C type for {other}"),
     }
     .to_string()
@@ -93,6 +94,12 @@ fn program() -> String {
         "offsetof(fmi2CallbackFunctions, componentEnvironment)",
         offset_of!(sys::CallbackFunctions, environment),
     );
+    equal("sizeof(fmi2EventInfo)", size_of::<sys::EventInfo>());
+    equal(
+        "offsetof(fmi2EventInfo, nextEventTimeDefined)",
+        offset_of!(sys::EventInfo, next_event_time_defined),
+    );
+    equal("offsetof(fmi2EventInfo, nextEventTime)", offset_of!(sys::EventInfo, next_event_time));
     equal("sizeof(fmi2Status)", size_of::<sys::Status>());
     equal("sizeof(fmi2Type)", size_of::<sys::Type>());
     equal("sizeof(fmi2StatusKind)", size_of::<sys::StatusKind>());

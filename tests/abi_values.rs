@@ -236,18 +236,43 @@ fn values_read_after_setting_an_input_fit_that_input_without_a_step() {
 }
 
 #[test]
-fn absent_capabilities_are_refused_by_name_unless_nothing_is_asked() {
+fn directional_derivatives_write_all_or_nothing_and_name_what_they_refuse() {
     let api = Api::load();
     let slave = Slave::flying(&api);
-    let (c, u, y) = (slave.c, reference("delta_e"), reference("V"));
-    // SAFETY: arrays of one element.
-    unsafe {
-        assert_eq!((api.set_input_derivatives)(c, &u, 1, &1, &0.0), Status::Error);
-        assert!(slave.message().message.contains("canInterpolateInputs"));
-        assert_eq!((api.get_output_derivatives)(c, &y, 1, &1, &mut 0.0), Status::Error);
-        assert!(slave.message().message.contains("maxOutputDerivativeOrder"));
-        let status = (api.directional_derivative)(c, &y, 1, &u, 1, &1.0, &mut 0.0);
-        assert_eq!(status, Status::Error);
-        assert!(slave.message().message.contains("providesDirectionalDerivative"));
+    let c = slave.c;
+    let rates = ["der(q)", "der(alpha)"].map(reference);
+    let both = ["q", "delta_e"].map(reference);
+    let untouched = 123.0;
+    let call = |unknowns: &[u32], knowns: &[u32], seed: &[f64]| {
+        let mut change = vec![untouched; unknowns.len()];
+        let (n, k) = (unknowns.len(), knowns.len());
+        let (unknowns, knowns) = (unknowns.as_ptr(), knowns.as_ptr());
+        let out = change.as_mut_ptr();
+        // SAFETY: arrays of the lengths given.
+        let status =
+            unsafe { (api.directional_derivative)(c, unknowns, n, knowns, k, seed.as_ptr(), out) };
+        (status, change)
+    };
+    let (status, [pitch, incidence]) = {
+        let (status, change) = call(&rates, &both[..1], &[1.0]);
+        (status, [change[0], change[1]])
+    };
+    assert_eq!((status, incidence), (Status::Ok, 1.0), "alpha' = q - gamma'");
+    let (_, elevator) = call(&rates, &both[1..], &[1.0]);
+    let (_, sum) = call(&rates, &both, &[2.0, 3.0]);
+    let expected = 2.0 * pitch + 3.0 * elevator[0];
+    assert!((sum[0] - expected).abs() <= 1e-14 * expected.abs());
+
+    let refused = [
+        (call(&[rates[0], reference("alpha_trim")], &both, &[1.0; 2]), "alpha_trim"),
+        (call(&rates, &[both[0], reference("fuel_fraction")], &[1.0; 2]), "fuel_fraction"),
+        (call(&rates, &both, &[1.0, f64::NAN]), "delta_e"),
+        (call(&[rates[0], 10_000], &both, &[1.0; 2]), "10000"),
+    ];
+    let mut messages = slave.log().into_iter();
+    for ((status, change), named) in refused {
+        assert_eq!((status, change), (Status::Error, vec![untouched; 2]), "{named}");
+        let record = messages.next().unwrap();
+        assert!(record.message.contains(named), "{record:?}");
     }
 }

@@ -97,3 +97,26 @@ fn tidy_files_have_one_job() {
         assert!(lines <= LIMIT, "{} has {lines} lines", path.display());
     }
 }
+
+#[test]
+fn tidy_errata_count_on_and_name_tests_that_exist() {
+    let errata = include_str!("../src/data/errata.md");
+    let number = |line: &str| line.split_once(". ")?.0.parse::<usize>().ok();
+    let numbers: Vec<usize> = errata.lines().filter_map(number).collect();
+    assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>());
+
+    let tests = sources("tests");
+    let named: Vec<&str> = errata
+        .split('`')
+        .skip(1)
+        .step_by(2)
+        .filter(|word| word.starts_with("paper_") || word.starts_with("verif_"))
+        .collect();
+    assert!(named.len() > 5, "errata name the tests that hold them");
+    for name in named {
+        let found = tests
+            .iter()
+            .any(|(path, text)| path.ends_with(name) || text.contains(&format!("fn {name}(")));
+        assert!(found, "errata.md names {name}: no such test");
+    }
+}

@@ -4,14 +4,16 @@
 
 mod model;
 
-use ahv::aero::{Aero, Elastic};
+use ahv::aero::{Aero, Elastic, Polynomial};
 use ahv::aeroelastic::{Strips, derive};
 use ahv::beam::Beam;
 use ahv::hermite::Shape;
 use ahv::modes::Modes;
-use ahv::vehicle::{Configuration, structure};
+use ahv::vehicle::{AeroSet, Configuration, structure};
 use model::{assert_close, build, data, vehicle};
 
+/// Sets whose elastic terms are as derived.
+const UNSCALED: [AeroSet; 2] = [AeroSet::Parker2007, AeroSet::ShockExpansion];
 /// Sums over 2,000 quadrature points.
 const ROUNDING: f64 = 1e-12;
 
@@ -23,9 +25,9 @@ struct Case {
 
 /// Elastic terms of two made-up modes of unit modal mass: heave, and nose-down pitch about the
 /// moment centre (w up, slope dw/dx = 1).
-fn rigid_motions() -> Case {
+fn rigid_motions(set: AeroSet) -> Case {
     let data = data();
-    let aero = Aero::new(&data.parker2007);
+    let aero = Aero::new(data.aero(set));
     let beam = Beam::even(&data.vehicle, 1.0);
     let nodes = 0..beam.elements() + 1;
     let heave = Shape { w: nodes.clone().map(|_| 1.0).collect(), slope: vec![0.0; nodes.len()] };
@@ -42,26 +44,41 @@ fn rigid_motions() -> Case {
 
 #[test]
 fn verif_a_rigid_rotation_is_an_incidence() {
-    let Case { aero, elastic, .. } = rigid_motions();
-    let alpha = aero.elastic_alpha;
-    assert_close("C_L", elastic.lift.eta[1], -aero.lift.slope(alpha), ROUNDING);
-    assert_close("C_M", elastic.moment.eta[1], -aero.moment.slope(alpha), ROUNDING);
-    assert_close("C_D", elastic.drag.eta[1], -aero.drag.slope(alpha), ROUNDING);
-    assert_close("inflow", elastic.inflow.eta[1], -1.0, ROUNDING);
+    for set in UNSCALED {
+        let Case { aero, elastic, .. } = rigid_motions(set);
+        let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
+        assert_close("C_L", elastic.lift.eta[1], -slope(&aero.lift), ROUNDING);
+        assert_close("C_M", elastic.moment.eta[1], -slope(&aero.moment), ROUNDING);
+        assert_close("C_D", elastic.drag.eta[1], -slope(&aero.drag), ROUNDING);
+        assert_close("inflow", elastic.inflow.eta[1], -1.0, ROUNDING);
+    }
 }
 
 #[test]
 fn verif_a_heave_velocity_is_an_incidence() {
-    let Case { aero, elastic, .. } = rigid_motions();
-    let alpha = aero.elastic_alpha;
-    assert_close("C_L", elastic.lift.rate[0], -aero.lift.slope(alpha), ROUNDING);
-    assert_close("C_M", elastic.moment.rate[0], -aero.moment.slope(alpha), ROUNDING);
-    assert!(elastic.lift.eta[0].abs() < ROUNDING && elastic.moment.eta[0].abs() < ROUNDING);
+    for set in UNSCALED {
+        let Case { aero, elastic, .. } = rigid_motions(set);
+        let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
+        assert_close("C_L", elastic.lift.rate[0], -slope(&aero.lift), ROUNDING);
+        assert_close("C_M", elastic.moment.rate[0], -slope(&aero.moment), ROUNDING);
+        assert_close("C_D", elastic.drag.rate[0], -slope(&aero.drag), ROUNDING);
+        assert!(elastic.lift.eta[0].abs() < ROUNDING && elastic.moment.eta[0].abs() < ROUNDING);
+    }
+}
+
+#[test]
+fn verif_slope_of_a_fit_counts_the_elevator() {
+    // C_D of shock_expansion has a term in alpha delta_e, as large as the slope without it.
+    let drag = Aero::new(&data().shock_expansion).drag;
+    let (alpha, delta_e, step) = (0.03, 0.16, 1e-4);
+    let quotient = (drag.at(alpha + step, delta_e) - drag.at(alpha - step, delta_e)) / (2.0 * step);
+    assert!(drag.cross != 0.0);
+    assert_close("dC_D/d alpha", drag.slope(alpha, delta_e), quotient, 1e-9);
 }
 
 #[test]
 fn verif_loads_add_up_to_the_published_lift_and_moment() {
-    let Case { aero, elastic, .. } = rigid_motions();
+    let Case { aero, elastic, .. } = rigid_motions(AeroSet::Parker2007);
     let [heave, pitch] = [elastic.force[0], elastic.force[1]];
     for power in 0..3 {
         // Work on a heave is lift; work on a nose-down pitch is minus the nose-up moment.
@@ -75,7 +92,7 @@ fn verif_loads_add_up_to_the_published_lift_and_moment() {
 
 #[test]
 fn verif_thrust_works_on_rigid_motions_as_on_the_rigid_body() {
-    let Case { aero, elastic, .. } = rigid_motions();
+    let Case { aero, elastic, .. } = rigid_motions(AeroSet::Parker2007);
     let [heave, pitch] = [elastic.force[0], elastic.force[1]];
     assert_close("lift of the thrust", heave.thrust_across, 1.0, ROUNDING);
     assert_close("couple", pitch.thrust_couple, -aero.thrust_arm, ROUNDING);
@@ -98,7 +115,7 @@ fn verif_liquid_at_rest_lies_on_the_floor() {
 #[test]
 fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
     // q > 0 lifts the nose: w = -(x - x_cg), so a rate of the nose-down shape is -q.
-    let Case { elastic, centre, aero } = rigid_motions();
+    let Case { elastic, centre, aero } = rigid_motions(AeroSet::Parker2007);
     assert_eq!(centre, aero.moment_centre);
     for force in &elastic.force[..2] {
         assert_close("rate", force.pitch_rate, -force.elastic.rate[1], ROUNDING);
@@ -128,7 +145,7 @@ fn verif_the_air_damps_every_mode() {
 fn verif_two_strips_are_plausible() {
     // The fore-body carries more of the lift slope than the rest; both push the right way, as
     // tangent-wedge theory demands (0.9 per rad of fore-body area at Mach 8).
-    let Case { aero, elastic, .. } = rigid_motions();
+    let Case { aero, elastic, .. } = rigid_motions(AeroSet::Parker2007);
     let data = data();
     let length = data.vehicle.geometry.length_m.value;
     let fore = data.vehicle.geometry.fore_body_m.value;

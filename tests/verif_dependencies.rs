@@ -21,9 +21,10 @@ fn values(base: &Snapshot, known: usize, size: f64) -> Vec<f64> {
     if known < STATES {
         moved.state[known] += size * NOMINAL[known];
     } else {
-        moved.inputs[known - STATES] += size;
+        moved.inputs.values[known - STATES] += size;
     }
-    let mut flight = Flight::restore(&moved).unwrap();
+    let mut flight = Flight::new().unwrap();
+    flight.rewind(&moved).unwrap();
     flight.evaluate().unwrap();
     TABLE.iter().map(|variable| variable.get(&flight)).collect()
 }

@@ -5,6 +5,7 @@ use crate::structure::{index, model_structure};
 use crate::workspace::{read_text, root, shown, write};
 use crate::xml::Xml;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
+use ahv::fmi::exchange::EVENT_INDICATORS;
 use ahv::fmi::log::CATEGORIES;
 use ahv::variables::{self, Kind, Role, TABLE, Unit, Variable};
 use anyhow::{Result, bail};
@@ -60,10 +61,10 @@ pub fn xml() -> Result<String> {
         ("license", env!("CARGO_PKG_LICENSE").to_string()),
         ("generationTool", concat!("cargo ahv ", env!("CARGO_PKG_VERSION")).to_string()),
         ("variableNamingConvention", "flat".to_string()),
-        ("numberOfEventIndicators", "0".to_string()),
+        ("numberOfEventIndicators", EVENT_INDICATORS.to_string()),
     ];
     xml.parent("fmiModelDescription", &root, |xml| {
-        co_simulation(xml)?;
+        interfaces(xml)?;
         xml.parent("UnitDefinitions", &[], unit_definitions)?;
         xml.parent("TypeDefinitions", &[], type_definitions)?;
         xml.parent("LogCategories", &[], |xml| {
@@ -93,19 +94,30 @@ pub fn xml() -> Result<String> {
     Ok(xml.finish()?)
 }
 
-fn co_simulation(xml: &mut Xml) -> io::Result<()> {
-    let attributes = [
+/// The schema wants model exchange first.
+fn interfaces(xml: &mut Xml) -> io::Result<()> {
+    let common = [
         ("modelIdentifier", MODEL_IDENTIFIER),
-        ("canHandleVariableCommunicationStepSize", "true"),
-        ("canInterpolateInputs", "false"),
-        ("maxOutputDerivativeOrder", "0"),
         ("canBeInstantiatedOnlyOncePerProcess", "false"),
         ("canNotUseMemoryManagementFunctions", "true"),
         ("canGetAndSetFMUstate", "true"),
         ("canSerializeFMUstate", "true"),
-        ("providesDirectionalDerivative", "false"),
+        ("providesDirectionalDerivative", "true"),
     ];
-    xml.leaf("CoSimulation", &attributes.map(|(key, value)| (key, value.to_string())))
+    let owned = |(key, value): (&'static str, &str)| (key, value.to_string());
+    let model_exchange: Vec<_> = common
+        .into_iter()
+        .chain([("completedIntegratorStepNotNeeded", "false")])
+        .map(owned)
+        .collect();
+    xml.leaf("ModelExchange", &model_exchange)?;
+    let attributes = [
+        ("canHandleVariableCommunicationStepSize", "true"),
+        ("canInterpolateInputs", "true"),
+        ("maxOutputDerivativeOrder", "1"),
+    ];
+    let co_simulation: Vec<_> = common.into_iter().chain(attributes).map(owned).collect();
+    xml.leaf("CoSimulation", &co_simulation)
 }
 
 /// The units of the table by name, in order of appearance. Units of the same name (a rate and a

@@ -27,7 +27,8 @@ propellant is inside them; the dampers of the sloshing masses couple them.</li>
 <li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel
 ratio and the modal coordinates with their rates.</li>
 </ul>
-<p>Between communication points the inputs are constant; the states are integrated with an explicit
+<p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
+the master gives for the step; the states are integrated with an explicit
 Runge-Kutta method of order 8 that controls its error and ends exactly on the communication
 point.</p>";
 

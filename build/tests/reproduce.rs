@@ -49,6 +49,33 @@ fn every_printed_number_has_a_cell_with_a_verdict() {
 }
 
 #[test]
+fn what_is_called_reproduced_holds_the_aim_of_its_kind() {
+    let (directory, json) = report(&["--only", "table1,table2,table3", "--aero", "all"]);
+    let tables = json["sets"].as_array().unwrap().iter().flat_map(|set| set["tables"].as_array());
+    let tables = tables.flatten().chain([&json["table1"]]);
+    let mut reproduced = 0;
+    for cell in tables.flat_map(|table| table["cells"].as_array().unwrap()) {
+        let aim = match cell["row"].as_str().unwrap() {
+            row if row.ends_with("mode") => 0.001,
+            row if row.ends_with("imaginary part") => 0.02,
+            row if row.ends_with("real part") => 0.1,
+            _ => 0.05,
+        };
+        // Printed zeros have no relative difference.
+        let difference = cell["difference"].as_f64().unwrap_or(0.0).abs();
+        match cell["verdict"].as_str().unwrap() {
+            "reproduced" => assert!(difference <= aim, "{cell}"),
+            "near" => assert!(difference > aim && difference <= 2.0 * aim, "{cell}"),
+            _ => continue,
+        }
+        reproduced += 1;
+    }
+    assert!(reproduced > 10, "{reproduced}");
+    let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
+    assert!(markdown.contains("A number is reproduced within the limit of its kind"));
+}
+
+#[test]
 fn every_claim_is_answered_with_numbers() {
     let (_directory, json) = report(&["--only", "claims"]);
     let claims = json["sets"][0]["claims"].as_array().unwrap();

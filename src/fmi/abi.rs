@@ -12,12 +12,13 @@
 mod common;
 mod cosimulation;
 mod entry;
+mod exchange;
 mod state;
 mod values;
 
 /// Each exported function is what `sys` says it is.
 mod signatures {
-    use super::{common::*, cosimulation::*, state::*, values::*};
+    use super::{common::*, cosimulation::*, exchange::*, state::*, values::*};
     use crate::fmi::sys;
 
     const _: sys::GetTypesPlatform = fmi2GetTypesPlatform;
@@ -47,6 +48,16 @@ mod signatures {
     const _: sys::GetDirectionalDerivative = fmi2GetDirectionalDerivative;
     const _: sys::SetRealInputDerivatives = fmi2SetRealInputDerivatives;
     const _: sys::GetRealOutputDerivatives = fmi2GetRealOutputDerivatives;
+    const _: sys::EnterEventMode = fmi2EnterEventMode;
+    const _: sys::NewDiscreteStates = fmi2NewDiscreteStates;
+    const _: sys::EnterContinuousTimeMode = fmi2EnterContinuousTimeMode;
+    const _: sys::CompletedIntegratorStep = fmi2CompletedIntegratorStep;
+    const _: sys::SetTime = fmi2SetTime;
+    const _: sys::SetContinuousStates = fmi2SetContinuousStates;
+    const _: sys::GetDerivatives = fmi2GetDerivatives;
+    const _: sys::GetEventIndicators = fmi2GetEventIndicators;
+    const _: sys::GetContinuousStates = fmi2GetContinuousStates;
+    const _: sys::GetNominalsOfContinuousStates = fmi2GetNominalsOfContinuousStates;
     const _: sys::DoStep = fmi2DoStep;
     const _: sys::CancelStep = fmi2CancelStep;
     const _: sys::GetStatus = fmi2GetStatus;

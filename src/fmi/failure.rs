@@ -69,6 +69,32 @@ pub enum Failure {
         /// The refused value.
         value: f64,
     },
+    /// A derivative with respect to, or of, what is not served.
+    #[error("{variable} is not served {served}")]
+    NoDerivative {
+        /// Name of the variable.
+        variable: &'static str,
+        /// What is served in its place.
+        served: &'static str,
+    },
+    /// A derivative of an order that is not served.
+    #[error("derivative {order} of {variable} is not served: orders are 1 to {highest}")]
+    Order {
+        /// Name of the variable.
+        variable: &'static str,
+        /// The refused order.
+        order: i32,
+        /// The highest order there is.
+        highest: usize,
+    },
+    /// A direction or derivative that is no number.
+    #[error("change of {variable} = {value} is refused: a finite number is needed")]
+    Seed {
+        /// Name of the variable.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
     /// The model gives no number for a variable: it is never handed on.
     #[error("{variable} = {value}: the model has no finite value here")]
     NotFinite {
@@ -129,6 +155,23 @@ pub enum Failure {
         /// The categories there are.
         known: String,
     },
+    /// A state that an instance for the other interface was in.
+    #[error(
+        "the FMU state is one of {phase}: it cannot go on where co-simulation and model exchange \
+         differ"
+    )]
+    OtherInterface {
+        /// State of the instance that it was taken of.
+        phase: Phase,
+    },
+    /// The master's integrator tries a state for which the model has no numbers.
+    #[error("{variable} = {value}: the model has no finite value at this trial state")]
+    Trial {
+        /// Name of the variable.
+        variable: &'static str,
+        /// What was computed.
+        value: f64,
+    },
     /// Bytes that are no FMU state of this model.
     #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
     Bytes {
@@ -144,7 +187,7 @@ impl Failure {
     /// go on with a value that was not taken.
     pub fn status(&self) -> Status {
         match self {
-            Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
+            Self::Incomplete(_) | Self::NoStatus { .. } | Self::Trial { .. } => Status::Discard,
             _ => Status::Error,
         }
     }

@@ -58,6 +58,7 @@ pub fn run(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fmi::instance::Interface;
     use crate::fmi::lifecycle::{CALLS, RESET};
     use std::panic::resume_unwind;
 
@@ -68,7 +69,7 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_fatal_is_logged_without_debug_logging_and_leaves_only_freeing() {
-        let mut instance = Instance::new(false).unwrap();
+        let mut instance = Instance::new(Interface::CoSimulation, false).unwrap();
         assert_eq!(run(&mut instance, &RESET, panicking("100% lost")), Status::Fatal);
         let messages = instance.log.take();
         assert_eq!(messages.len(), 1);
@@ -91,8 +92,10 @@ mod tests {
 
     #[test]
     fn a_panic_in_one_instance_leaves_the_others_alone() {
-        let (mut ruined, mut other) =
-            (Instance::new(false).unwrap(), Instance::new(false).unwrap());
+        let (mut ruined, mut other) = (
+            Instance::new(Interface::CoSimulation, false).unwrap(),
+            Instance::new(Interface::CoSimulation, false).unwrap(),
+        );
         assert_eq!(run(&mut ruined, &RESET, panicking("")), Status::Fatal);
         assert_eq!(run(&mut other, &RESET, |instance| instance.reset()), Status::Ok);
     }

@@ -1,5 +1,6 @@
 //! One instance: its experiment, its steps and its status.
 
+use crate::dynamics::STATES;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
 use crate::fmi::failure::{Failure, Outcome};
@@ -7,6 +8,7 @@ use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
+use crate::variables::{TABLE, known_rows};
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this
@@ -34,13 +36,23 @@ impl Life {
     const NEW: Self = Self { phase: Phase::Instantiated, stop: None, ended: false };
 }
 
+/// What a master uses an instance for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interface {
+    /// The master integrates.
+    ModelExchange,
+    /// The instance integrates.
+    CoSimulation,
+}
+
 /// An instance of the FMU.
 #[derive(Debug)]
 pub struct Instance {
+    interface: Interface,
     /// As it was when instantiated: what a reset goes back to.
     pristine: Flight,
     pub(super) flight: Flight,
-    life: Life,
+    pub(super) life: Life,
     logging_on: bool,
     /// Messages for the master.
     pub log: Log,
@@ -51,10 +63,11 @@ impl Instance {
     ///
     /// # Errors
     /// [`Error::Data`] if the data files built in are not those of a vehicle.
-    pub fn new(logging_on: bool) -> Result<Self, Error> {
+    pub fn new(interface: Interface, logging_on: bool) -> Result<Self, Error> {
         let pristine = Flight::new()?;
         let flight = pristine.clone();
-        Ok(Self { pristine, flight, life: Life::NEW, logging_on, log: Log::new(logging_on) })
+        let log = Log::new(logging_on);
+        Ok(Self { interface, pristine, flight, life: Life::NEW, logging_on, log })
     }
 
     /// State in the standard's table.
@@ -129,7 +142,10 @@ impl Instance {
             self.life.phase = Phase::Error;
             return Err(Failure::Initialisation(error));
         }
-        self.life.phase = Phase::StepComplete;
+        self.life.phase = match self.interface {
+            Interface::ModelExchange => Phase::EventMode,
+            Interface::CoSimulation => Phase::StepComplete,
+        };
         if let Some(trim) = self.flight.trim() {
             let (alpha, [delta_e, phi]) = (trim.state[3], trim.control);
             self.log.push(Status::Ok, || {
@@ -195,6 +211,13 @@ impl Instance {
         if end == time {
             return Ok(());
         }
+        let (inputs, rows) = (self.flight.inputs().at(end - time), known_rows());
+        if let Some(i) = inputs.iter().position(|input| !input.is_finite()) {
+            return Err(Failure::NotFinite {
+                variable: TABLE[rows[STATES + i]].name,
+                value: inputs[i],
+            });
+        }
         match self.flight.advance(end) {
             Ok(()) => Ok(()),
             // A part of the step was flown, so the status is discard. The integrator chose its own
@@ -250,8 +273,15 @@ impl Instance {
     /// `fmi2SetFMUstate`.
     ///
     /// # Errors
-    /// [`Failure::Model`] if the flight cannot be rebuilt.
+    /// [`Failure::OtherInterface`]; [`Failure::Model`] if the flight cannot be rebuilt.
     pub fn set_state(&mut self, state: &FmuState) -> Outcome {
+        let other = match self.interface {
+            Interface::ModelExchange => [Phase::StepComplete, Phase::StepFailed],
+            Interface::CoSimulation => [Phase::EventMode, Phase::ContinuousTimeMode],
+        };
+        if other.contains(&state.life.phase) {
+            return Err(Failure::OtherInterface { phase: state.life.phase });
+        }
         self.flight.rewind(&state.flight)?;
         self.life = state.life;
         Ok(())

@@ -1,4 +1,4 @@
-//! Legal order of calls, as data: the table of FMI 2.0.5, section 4.2.4.
+//! Legal order of calls, as data: the tables of FMI 2.0.5, sections 3.2.3 and 4.2.4.
 //!
 //! The numbered conditions of that table concern single variables and are checked where values are
 //! read and set; here they count as allowed.
@@ -28,10 +28,14 @@ pub enum Phase {
     Error = 7,
     /// The instance cannot be trusted any more; free it.
     Fatal = 8,
+    /// Model exchange: at an event.
+    EventMode = 9,
+    /// Model exchange: between events.
+    ContinuousTimeMode = 10,
 }
 
-/// All states, in the order of the standard's table.
-pub const PHASES: [Phase; 9] = [
+/// All states, by number.
+pub const PHASES: [Phase; 11] = [
     Phase::Instantiated,
     Phase::InitializationMode,
     Phase::StepComplete,
@@ -41,6 +45,8 @@ pub const PHASES: [Phase; 9] = [
     Phase::Terminated,
     Phase::Error,
     Phase::Fatal,
+    Phase::EventMode,
+    Phase::ContinuousTimeMode,
 ];
 
 impl Phase {
@@ -62,6 +68,8 @@ impl fmt::Display for Phase {
             Self::Terminated => "terminated",
             Self::Error => "error",
             Self::Fatal => "fatal",
+            Self::EventMode => "event mode",
+            Self::ContinuousTimeMode => "continuous-time mode",
         })
     }
 }
@@ -90,11 +98,15 @@ const FAILED: u16 = Phase::StepFailed.bit();
 const CANCELED: u16 = Phase::StepCanceled.bit();
 const TERMINATED: u16 = Phase::Terminated.bit();
 const ERROR: u16 = Phase::Error.bit();
+const EVENT: u16 = Phase::EventMode.bit();
+const CONTINUOUS: u16 = Phase::ContinuousTimeMode.bit();
 
 const AFTER_STEP: u16 = COMPLETE | FAILED | CANCELED | TERMINATED | ERROR;
-const AT_REST: u16 = INSTANTIATED | INITIALIZATION | AFTER_STEP;
-const READ: u16 = INITIALIZATION | AFTER_STEP;
-const WRITE: u16 = INSTANTIATED | INITIALIZATION | COMPLETE;
+const EXCHANGE: u16 = EVENT | CONTINUOUS;
+const READ: u16 = INITIALIZATION | AFTER_STEP | EXCHANGE;
+const AT_REST: u16 = INSTANTIATED | READ;
+const WRITE: u16 = INSTANTIATED | INITIALIZATION | COMPLETE | EVENT;
+const READ_EXCHANGE: u16 = EXCHANGE | TERMINATED | ERROR;
 const STATUS: u16 = COMPLETE | IN_PROGRESS | FAILED | TERMINATED;
 
 /// The table: one constant per function, and all of them in `CALLS`.
@@ -115,13 +127,13 @@ calls! {
     SETUP_EXPERIMENT "fmi2SetupExperiment" INSTANTIATED;
     ENTER_INITIALIZATION_MODE "fmi2EnterInitializationMode" INSTANTIATED;
     EXIT_INITIALIZATION_MODE "fmi2ExitInitializationMode" INITIALIZATION;
-    TERMINATE "fmi2Terminate" COMPLETE | FAILED;
+    TERMINATE "fmi2Terminate" COMPLETE | FAILED | EXCHANGE;
     RESET "fmi2Reset" AT_REST;
     GET_REAL "fmi2GetReal" READ;
     GET_INTEGER "fmi2GetInteger" READ;
     GET_BOOLEAN "fmi2GetBoolean" READ;
     GET_STRING "fmi2GetString" READ;
-    SET_REAL "fmi2SetReal" WRITE;
+    SET_REAL "fmi2SetReal" WRITE | CONTINUOUS;
     SET_INTEGER "fmi2SetInteger" WRITE;
     SET_BOOLEAN "fmi2SetBoolean" WRITE;
     SET_STRING "fmi2SetString" WRITE;
@@ -132,7 +144,17 @@ calls! {
     SERIALIZE_FMU_STATE "fmi2SerializeFMUstate" AT_REST;
     DESERIALIZE_FMU_STATE "fmi2DeSerializeFMUstate" AT_REST;
     GET_DIRECTIONAL_DERIVATIVE "fmi2GetDirectionalDerivative" READ;
-    SET_REAL_INPUT_DERIVATIVES "fmi2SetRealInputDerivatives" WRITE;
+    ENTER_EVENT_MODE "fmi2EnterEventMode" EXCHANGE;
+    NEW_DISCRETE_STATES "fmi2NewDiscreteStates" EVENT;
+    ENTER_CONTINUOUS_TIME_MODE "fmi2EnterContinuousTimeMode" EVENT;
+    COMPLETED_INTEGRATOR_STEP "fmi2CompletedIntegratorStep" CONTINUOUS;
+    SET_TIME "fmi2SetTime" EXCHANGE;
+    SET_CONTINUOUS_STATES "fmi2SetContinuousStates" CONTINUOUS;
+    GET_DERIVATIVES "fmi2GetDerivatives" READ_EXCHANGE;
+    GET_EVENT_INDICATORS "fmi2GetEventIndicators" READ_EXCHANGE | INITIALIZATION;
+    GET_CONTINUOUS_STATES "fmi2GetContinuousStates" READ_EXCHANGE | INITIALIZATION;
+    GET_NOMINALS_OF_CONTINUOUS_STATES "fmi2GetNominalsOfContinuousStates" READ_EXCHANGE | INSTANTIATED;
+    SET_REAL_INPUT_DERIVATIVES "fmi2SetRealInputDerivatives" INSTANTIATED | INITIALIZATION | COMPLETE;
     GET_REAL_OUTPUT_DERIVATIVES "fmi2GetRealOutputDerivatives" AFTER_STEP;
     DO_STEP "fmi2DoStep" COMPLETE;
     CANCEL_STEP "fmi2CancelStep" IN_PROGRESS;

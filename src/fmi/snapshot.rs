@@ -11,18 +11,19 @@
 //! | 16 | [`MODEL_HASH`] |
 //! | 1 | state in the standard's table |
 //! | 1 | flags |
-//! | 8 each | stop time, time, tolerance, step proposal, states, inputs and parameters by row |
+//! | 8 each | stop time, time, tolerance, step proposal, states, derivatives of the inputs by order |
+//! | 8 each | inputs and parameters by row |
 //! | 8 | FNV-1a of all before |
 
-use crate::dynamics::STATES;
-use crate::flight::{Flight, Snapshot};
+use crate::dynamics::{INPUTS, STATES};
+use crate::flight::{Flight, INPUT_ORDER, Snapshot};
 use crate::fmi::failure::Failure;
 use crate::fmi::instance::{Life, TOLERANCES};
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::variables::{MODEL_HASH, TABLE, Variable};
 
 const MAGIC: [u8; 8] = *b"AHVSTATE";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 8 + 4 + 4 + 16;
 const CHECKSUM: usize = 8;
 /// Stop time, time, tolerance, step proposal.
@@ -31,6 +32,7 @@ const CLOCK: usize = 4;
 const EXPERIMENT: u8 = 1 << 0;
 const ENDED: u8 = 1 << 1;
 const INITIALISED: u8 = 1 << 2;
+const AHEAD: u8 = 1 << 3;
 
 /// All that has to be remembered of an instance.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +57,7 @@ fn checksum(bytes: &[u8]) -> u64 {
 impl FmuState {
     /// Length of [`FmuState::encode`]'s result, the same for every state.
     pub fn encoded_len() -> usize {
-        HEADER + 2 + 8 * (CLOCK + STATES + settable().count()) + CHECKSUM
+        HEADER + 2 + 8 * (CLOCK + STATES + INPUTS * INPUT_ORDER + settable().count()) + CHECKSUM
     }
 
     /// The bytes. `pristine` is any flight of this model.
@@ -72,7 +74,8 @@ impl FmuState {
         bytes.push(
             flag(life.stop.is_some(), EXPERIMENT)
                 | flag(life.ended, ENDED)
-                | flag(flight.initialised, INITIALISED),
+                | flag(flight.initialised, INITIALISED)
+                | flag(flight.inputs.ahead, AHEAD),
         );
         let integrator = &flight.integrator;
         let clock =
@@ -80,11 +83,12 @@ impl FmuState {
         // The table's rows read values from a flight: give them one with these.
         let mut scratch = pristine.clone();
         scratch.change(|parameters| *parameters = flight.parameters);
-        for (i, &input) in flight.inputs.iter().enumerate() {
+        for (i, &input) in flight.inputs.values.iter().enumerate() {
             scratch.set_input(i, input);
         }
         let rows = settable().map(|variable| variable.get(&scratch));
-        for number in clock.into_iter().chain(flight.state).chain(rows) {
+        let courses = flight.inputs.derivatives.into_iter().flatten();
+        for number in clock.into_iter().chain(flight.state).chain(courses).chain(rows) {
             bytes.extend(number.to_le_bytes());
         }
         bytes.extend(checksum(&bytes).to_le_bytes());
@@ -142,8 +146,9 @@ fn decode(bytes: &[u8], pristine: &Flight) -> Result<FmuState, String> {
     flight.time = reader.number()?;
     flight.integrator.tolerance = reader.number()?;
     flight.integrator.proposal = reader.number()?;
-    for state in &mut flight.state {
-        *state = reader.number()?;
+    let courses = flight.inputs.derivatives.iter_mut().flatten();
+    for number in flight.state.iter_mut().chain(courses) {
+        *number = reader.number()?;
     }
     let [least, largest] = TOLERANCES;
     expect(
@@ -152,7 +157,8 @@ fn decode(bytes: &[u8], pristine: &Flight) -> Result<FmuState, String> {
             && (least..=largest).contains(&flight.integrator.tolerance)
             && flight.integrator.proposal > 0.0
             && flight.integrator.proposal.is_finite()
-            && flight.state.iter().all(|state| state.is_finite()),
+            && flight.state.iter().all(|state| state.is_finite())
+            && flight.inputs.derivatives.iter().flatten().all(|rate| rate.is_finite()),
         "they hold numbers that no instance has",
     )?;
     let mut scratch = pristine.clone();
@@ -160,7 +166,8 @@ fn decode(bytes: &[u8], pristine: &Flight) -> Result<FmuState, String> {
         variable.set(&mut scratch, reader.number()?).map_err(|error| error.to_string())?;
     }
     flight.parameters = *scratch.parameters();
-    flight.inputs = *scratch.inputs();
+    flight.inputs.values = scratch.inputs().values;
+    flight.inputs.ahead = flag(AHEAD);
     let stop = flag(EXPERIMENT).then_some(stop);
     Ok(FmuState { flight, life: Life { phase, stop, ended: flag(ENDED) } })
 }
@@ -182,7 +189,7 @@ mod tests {
         let again = |state: &FmuState| FmuState::decode(&state.encode(&pristine), &pristine);
         assert_eq!(again(&good).as_ref(), Ok(&good));
         type Forgery = fn(&mut FmuState);
-        let forgeries: [Forgery; 8] = [
+        let forgeries: [Forgery; 9] = [
             |s| s.life.phase = Phase::Fatal,
             |s| s.life.phase = Phase::StepInProgress,
             |s| s.life.stop = Some(f64::NAN),
@@ -190,6 +197,7 @@ mod tests {
             |s| s.flight.integrator.tolerance = 0.0,
             |s| s.flight.integrator.proposal = -1.0,
             |s| s.flight.state[0] = f64::NAN,
+            |s| s.flight.inputs.derivatives[1][0] = f64::INFINITY,
             |s| s.flight.parameters.build.condition.mach = f64::MAX,
         ];
         for forge in forgeries {

@@ -105,6 +105,24 @@ pub struct CallbackFunctions {
     pub environment: ComponentEnvironment,
 }
 
+/// `fmi2EventInfo`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[repr(C)]
+pub struct EventInfo {
+    /// Whether the event iteration has to go on.
+    pub new_discrete_states_needed: Boolean,
+    /// Whether the simulation should end.
+    pub terminate_simulation: Boolean,
+    /// Whether a nominal value changed.
+    pub nominals_of_continuous_states_changed: Boolean,
+    /// Whether a continuous state jumped.
+    pub values_of_continuous_states_changed: Boolean,
+    /// Whether the next value is defined.
+    pub next_event_time_defined: Boolean,
+    /// Time of the next event, s.
+    pub next_event_time: Real,
+}
+
 /// Types of the exported functions: `fmi2GetVersionTYPE` is `GetVersion` here.
 macro_rules! functions {
     ($($function:ident $c:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
@@ -147,6 +165,16 @@ functions! {
     GetDirectionalDerivative "fmi2GetDirectionalDerivative" (Component, *const ValueReference, usize, *const ValueReference, usize, *const Real, *mut Real) -> Status;
     SetRealInputDerivatives "fmi2SetRealInputDerivatives" (Component, *const ValueReference, usize, *const Integer, *const Real) -> Status;
     GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" (Component, *const ValueReference, usize, *const Integer, *mut Real) -> Status;
+    EnterEventMode "fmi2EnterEventMode" (Component) -> Status;
+    NewDiscreteStates "fmi2NewDiscreteStates" (Component, *mut EventInfo) -> Status;
+    EnterContinuousTimeMode "fmi2EnterContinuousTimeMode" (Component) -> Status;
+    CompletedIntegratorStep "fmi2CompletedIntegratorStep" (Component, Boolean, *mut Boolean, *mut Boolean) -> Status;
+    SetTime "fmi2SetTime" (Component, Real) -> Status;
+    SetContinuousStates "fmi2SetContinuousStates" (Component, *const Real, usize) -> Status;
+    GetDerivatives "fmi2GetDerivatives" (Component, *mut Real, usize) -> Status;
+    GetEventIndicators "fmi2GetEventIndicators" (Component, *mut Real, usize) -> Status;
+    GetContinuousStates "fmi2GetContinuousStates" (Component, *mut Real, usize) -> Status;
+    GetNominalsOfContinuousStates "fmi2GetNominalsOfContinuousStates" (Component, *mut Real, usize) -> Status;
     DoStep "fmi2DoStep" (Component, Real, Real, Boolean) -> Status;
     CancelStep "fmi2CancelStep" (Component) -> Status;
     GetStatus "fmi2GetStatus" (Component, StatusKind, *mut Status) -> Status;

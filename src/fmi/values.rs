@@ -1,9 +1,14 @@
 //! Reading and setting variables: a call with several references does all or nothing.
 
+use crate::dynamics::{Control, INPUTS, STATES, State};
+use crate::flight::INPUT_ORDER;
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Phase;
 use crate::variables::{Kind, Role, TABLE, Variable};
+
+/// Highest derivative of an output: `maxOutputDerivativeOrder`.
+pub const OUTPUT_ORDER: usize = 1;
 
 /// The standard's names of the types of values.
 const REAL: &str = "Real";
@@ -152,36 +157,136 @@ impl Instance {
 
     /// `fmi2GetDirectionalDerivative`: changes of `unknowns` for the changes `seed` of `knowns`.
     ///
+    /// Unknowns are states, outputs and derivatives; knowns are states and inputs. Exact, by dual
+    /// numbers; a reference that stands twice among the knowns counts twice.
+    ///
     /// # Errors
-    /// [`Failure::NotProvided`].
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::NoDerivative`],
+    /// [`Failure::Seed`]; [`Failure::Model`] if the model cannot be evaluated,
+    /// [`Failure::NotFinite`]. No value is written then.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
-        _knowns: &[u32],
-        _seed: &[f64],
-        _write: impl FnMut(usize, f64),
+        knowns: &[u32],
+        seed: &[f64],
+        write: impl FnMut(usize, f64),
     ) -> Outcome {
-        provided_for(unknowns, "providesDirectionalDerivative = false")
+        let (mut state, mut input) = ([0.0; STATES], [0.0; INPUTS]);
+        for (&reference, &change) in knowns.iter().zip(seed) {
+            let known = variable(reference, REAL)?;
+            if !change.is_finite() {
+                return Err(Failure::Seed { variable: known.name, value: change });
+            }
+            match known.role {
+                Role::OutputState(i) | Role::LocalState(i) => state[i] += change,
+                Role::Input(i) => input[i] += change,
+                _ => return Err(no_derivative(known, "as known: states and inputs are")),
+            }
+        }
+        self.tangent(unknowns, &state, &input, write)
     }
 
-    /// `fmi2SetRealInputDerivatives`.
-    ///
-    /// # Errors
-    /// [`Failure::NotProvided`].
-    pub fn set_input_derivatives(&mut self, inputs: &[u32]) -> Outcome {
-        provided_for(inputs, "canInterpolateInputs = false")
+    /// Hands out what changes along a change of state and inputs.
+    fn tangent(
+        &mut self,
+        unknowns: &[u32],
+        state: &State,
+        input: &Control,
+        mut write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        if unknowns.is_empty() {
+            return Ok(());
+        }
+        let tangent = self.flight.tangent(state, input)?;
+        for &reference in unknowns {
+            let unknown = variable(reference, REAL)?;
+            if matches!(unknown.role, Role::Input(_) | Role::Parameter | Role::Calculated) {
+                return Err(no_derivative(unknown, "as unknown: states, outputs and rates are"));
+            }
+            let value = unknown.get(&tangent);
+            if !value.is_finite() {
+                return Err(Failure::NotFinite { variable: unknown.name, value });
+            }
+        }
+        for (i, &reference) in unknowns.iter().enumerate() {
+            write(i, variable(reference, REAL)?.get(&tangent));
+        }
+        Ok(())
     }
 
-    /// `fmi2GetRealOutputDerivatives`.
+    /// `fmi2SetRealInputDerivatives`: how the inputs go on from their present values within the next
+    /// step, and only there. It may come before or after `fmi2SetReal`.
     ///
     /// # Errors
-    /// [`Failure::NotProvided`].
-    pub fn output_derivatives(&mut self, outputs: &[u32]) -> Outcome {
-        provided_for(outputs, "maxOutputDerivativeOrder = 0")
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::NoDerivative`],
+    /// [`Failure::Order`], [`Failure::Seed`]. No derivative is set then.
+    pub fn set_input_derivatives(
+        &mut self,
+        inputs: &[u32],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Outcome {
+        let triple = |i: usize| {
+            let (variable, value) = (variable(inputs[i], REAL)?, values[i]);
+            let Role::Input(input) = variable.role else {
+                return Err(no_derivative(variable, "with a derivative: inputs are"));
+            };
+            if !value.is_finite() {
+                return Err(Failure::Seed { variable: variable.name, value });
+            }
+            Ok((input, order(variable, orders[i], INPUT_ORDER)?, value))
+        };
+        for i in 0..inputs.len() {
+            triple(i)?;
+        }
+        for i in 0..inputs.len() {
+            let (input, order, value) = triple(i)?;
+            self.flight.set_input_derivative(input, order, value);
+        }
+        Ok(())
+    }
+
+    /// `fmi2GetRealOutputDerivatives`: first derivatives by time, exact; inputs go on as they moved at
+    /// the end of the last step.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::NoDerivative`],
+    /// [`Failure::Order`]; [`Failure::Model`] if the model cannot be evaluated,
+    /// [`Failure::NotFinite`]. No value is written then.
+    pub fn output_derivatives(
+        &mut self,
+        outputs: &[u32],
+        orders: &[i32],
+        mut write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        if outputs.is_empty() {
+            return Ok(());
+        }
+        let rates = self.flight.rates()?;
+        for (&reference, &asked) in outputs.iter().zip(orders) {
+            let output = variable(reference, REAL)?;
+            if !matches!(output.role, Role::Output | Role::OutputState(_)) {
+                return Err(no_derivative(output, "with a derivative: outputs are"));
+            }
+            order(output, asked, OUTPUT_ORDER)?;
+            let value = output.get(&rates);
+            if !value.is_finite() {
+                return Err(Failure::NotFinite { variable: output.name, value });
+            }
+        }
+        for (i, &reference) in outputs.iter().enumerate() {
+            write(i, variable(reference, REAL)?.get(&rates));
+        }
+        Ok(())
     }
 }
 
-/// Asking an absent capability for nothing is no error.
-fn provided_for(references: &[u32], capability: &'static str) -> Outcome {
-    if references.is_empty() { Ok(()) } else { Err(Failure::NotProvided { capability }) }
+fn no_derivative(variable: &Variable, served: &'static str) -> Failure {
+    Failure::NoDerivative { variable: variable.name, served }
+}
+
+/// An order of derivation, if it is served.
+fn order(variable: &Variable, asked: i32, highest: usize) -> Result<usize, Failure> {
+    let refused = Failure::Order { variable: variable.name, order: asked, highest };
+    usize::try_from(asked).ok().filter(|order| (1..=highest).contains(order)).ok_or(refused)
 }

@@ -195,8 +195,8 @@ const INPUT_MODE: Kind = Kind::Enumeration(
 /// All variables.
 #[rustfmt::skip]
 pub static TABLE: [Variable; 67] = [
-    input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs()[0], |f, v| f.set_input(0, v)),
-    input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs()[1], |f, v| f.set_input(1, v)),
+    input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
+    input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed", |f| f.state()[0]),
     output_state(2, "gamma", ANGLE, "Flight-path angle", |f| f.state()[2]),
     output_state(5, "eta1", METRE, "First flexible mode, as nose deflection, up positive", |f| f.state()[5]),

@@ -81,6 +81,16 @@ api! {
     directional_derivative: GetDirectionalDerivative "fmi2GetDirectionalDerivative";
     set_input_derivatives: SetRealInputDerivatives "fmi2SetRealInputDerivatives";
     get_output_derivatives: GetRealOutputDerivatives "fmi2GetRealOutputDerivatives";
+    enter_event_mode: EnterEventMode "fmi2EnterEventMode";
+    new_discrete_states: NewDiscreteStates "fmi2NewDiscreteStates";
+    enter_continuous_time_mode: EnterContinuousTimeMode "fmi2EnterContinuousTimeMode";
+    completed_integrator_step: CompletedIntegratorStep "fmi2CompletedIntegratorStep";
+    set_time: SetTime "fmi2SetTime";
+    set_continuous_states: SetContinuousStates "fmi2SetContinuousStates";
+    get_derivatives: GetDerivatives "fmi2GetDerivatives";
+    get_event_indicators: GetEventIndicators "fmi2GetEventIndicators";
+    get_continuous_states: GetContinuousStates "fmi2GetContinuousStates";
+    get_nominals_of_continuous_states: GetNominalsOfContinuousStates "fmi2GetNominalsOfContinuousStates";
     do_step: DoStep "fmi2DoStep";
     cancel_step: CancelStep "fmi2CancelStep";
     get_status: GetStatus "fmi2GetStatus";

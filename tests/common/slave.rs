@@ -31,11 +31,19 @@ impl<'a> Slave<'a> {
         Self::with_logging(api, false)
     }
 
+    /// An instance for model exchange.
+    pub fn exchange(api: &'a Api) -> Self {
+        Self::with(api, sys::Type::MODEL_EXCHANGE, false)
+    }
+
     pub fn with_logging(api: &'a Api, on: bool) -> Self {
+        Self::with(api, sys::Type::CO_SIMULATION, on)
+    }
+
+    fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
         let sink = Box::new(Sink::default());
         let guid = CString::new(guid()).unwrap();
         let functions = callbacks(&sink);
-        let kind = sys::Type::CO_SIMULATION;
         let c = unsafe {
             (api.instantiate)(
                 c"one".as_ptr(),

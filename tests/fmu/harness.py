@@ -29,6 +29,7 @@ OK, WARNING, DISCARD, ERROR = 0, 1, 2, 3
 
 RIGID, EVEN_MASS_BEAM, SLOSH_BEAM = 1, 2, 3
 CONFIGURATIONS = (RIGID, EVEN_MASS_BEAM, SLOSH_BEAM)
+AERO_SETS = ("xu2015", "parker2007", "shock_expansion")
 
 # In the order of the oracle's state vector.
 STATES = (

@@ -9,6 +9,7 @@ import pytest
 
 from harness import (
     ACTIVE_STATES,
+    AERO_SETS,
     CONFIGURATIONS,
     DERIVATIVES,
     INPUTS,
@@ -25,6 +26,9 @@ STEP, STEPS = 0.01, 100
 # value. The unstable short period amplifies early errors by up to e^(5 t), yet the default
 # tolerance of 1e-8 keeps the demanded 1e-7.
 RUN = {None: 1e-7, 1e-10: 2e-8}
+# Least excursion, m/s: the integrator's tolerance counts from |x| + nominal, and more fuel moves
+# the third mode by half its nominal rate in shock_expansion, whose plume bends the beam.
+LEAST_EXCURSION = {"eta3_dot": 5e-3}
 # Rates and outputs at the same state and input: rounding, relative to the variable's largest value.
 POINTWISE = 1e-11
 
@@ -53,27 +57,31 @@ def columns(vehicle: Vehicle, states: np.ndarray, outputs: dict) -> np.ndarray:
 
 
 def assert_equal_flights(ours: np.ndarray, theirs: np.ndarray, limit: float) -> None:
-    """Every variable within `limit` of its largest excursion; one that must not move does not."""
+    """Every variable within `limit` of its excursion; one that must not move does not."""
     excursion = np.abs(theirs - theirs[0]).max(axis=0)
     error = np.abs(ours - theirs).max(axis=0)
     for name, wrong, size in zip((*STATES, *OUTPUTS), error, excursion, strict=True):
+        if size:
+            size = max(size, LEAST_EXCURSION.get(name, 0.0))
         assert wrong <= limit * size, f"{name}: {wrong / size if size else wrong:.2e}"
 
 
 @pytest.mark.parametrize("tolerance", RUN, ids=["default", "tight"])
 @pytest.mark.parametrize("manoeuvre", [doublet, throttle], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("aero", AERO_SETS)
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)
 def test_verif_run_equals_the_oracle(
     package: Package,
     vehicle: Callable[..., Vehicle],
     flown: Callable[..., np.ndarray],
     configuration: int,
+    aero: str,
     manoeuvre: Callable[[int], tuple[float, float]],
     tolerance: float | None,
 ) -> None:
     """All states and outputs of a manoeuvre, at every communication point."""
-    theirs = flown(configuration, manoeuvre)
-    with package.flight(tolerance, configuration=configuration) as flight:
+    theirs = flown(configuration, aero, manoeuvre)
+    with package.flight(tolerance, configuration=configuration, aero=aero) as flight:
         ours = flight.fly(STEPS, STEP, manoeuvre, (*STATES, *OUTPUTS))
     assert_equal_flights(ours, theirs, RUN[tolerance])
 
@@ -83,10 +91,10 @@ def flown(vehicle: Callable[..., Vehicle]) -> Callable[..., np.ndarray]:
     """The oracle's flights, each computed once."""
     known: dict = {}
 
-    def fly(configuration: int, manoeuvre: Callable) -> np.ndarray:
-        key = (configuration, manoeuvre)
+    def fly(configuration: int, aero: str, manoeuvre: Callable) -> np.ndarray:
+        key = (configuration, aero, manoeuvre)
         if key not in known:
-            oracle = vehicle(configuration)
+            oracle = vehicle(configuration=configuration, aero=aero)
             _, states, outputs = oracle.simulate(STEPS * STEP, STEP, manoeuvre)
             known[key] = columns(oracle, states, outputs)
         return known[key]
@@ -94,15 +102,16 @@ def flown(vehicle: Callable[..., Vehicle]) -> Callable[..., np.ndarray]:
     return fly
 
 
+@pytest.mark.parametrize("aero", AERO_SETS)
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)
 def test_verif_rates_and_outputs_equal_the_oracle_at_every_state(
-    package: Package, vehicle: Callable[..., Vehicle], configuration: int
+    package: Package, vehicle: Callable[..., Vehicle], configuration: int, aero: str
 ) -> None:
     """Equations (3) and (4) themselves: no integrator in between, all states away from trim."""
-    oracle = vehicle(configuration)
+    oracle = vehicle(configuration=configuration, aero=aero)
     active = ACTIVE_STATES[configuration]
     names = (*STATES, "delta_e_effective", "phi_effective", *DERIVATIVES, *OUTPUTS)
-    with package.flight(configuration=configuration) as flight:
+    with package.flight(configuration=configuration, aero=aero) as flight:
         table = flight.fly(40, 0.02, both, names)
     count = len(STATES)
     theirs = []

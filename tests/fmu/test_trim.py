@@ -8,7 +8,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from harness import CONFIGURATIONS, DERIVATIVES, ERROR, SLOSH_BEAM, STATES, Package, Refused
+from harness import (
+    AERO_SETS,
+    CONFIGURATIONS,
+    DERIVATIVES,
+    ERROR,
+    SLOSH_BEAM,
+    STATES,
+    Package,
+    Refused,
+)
 from oracle import Vehicle
 
 TRIM = ("alpha_trim", "delta_e_trim", "phi_trim")
@@ -25,7 +34,7 @@ DRIFT = 1e-7
 
 SWEEP: list[dict[str, Any]] = [
     *({"configuration": number} for number in CONFIGURATIONS),
-    *({"aero": name} for name in ("xu2015", "parker2007")),
+    *({"aero": name} for name in AERO_SETS),
     *({"fuel_fraction": part} for part in (0.0, 0.5, 1.0)),
     *({"slosh_frequency": omega} for omega in (5.0, 20.0, 60.0)),
     *({"slosh_damping": ratio} for ratio in (0.0, 0.05, 0.3)),
@@ -36,8 +45,7 @@ SWEEP: list[dict[str, Any]] = [
     {"configuration": 1, "fuel_fraction": 0.5, "mach0": 9.0, "altitude0": 28000.0},
 ]
 COMPARED: list[dict[str, Any]] = [
-    *({"configuration": number} for number in CONFIGURATIONS),
-    *({"configuration": number, "aero": "parker2007"} for number in CONFIGURATIONS),
+    *({"configuration": k, "aero": name} for k in CONFIGURATIONS for name in AERO_SETS),
     {"fuel_fraction": 0.5, "aero": "xu2015"},
     {"fuel_fraction": 0.0, "slosh_frequency": 5.0, "slosh_damping": 0.3},
     {"slosh_frequency": 60.0, "mach0": 7.5, "altitude0": 24500.0, "gamma0": 0.01},

@@ -123,15 +123,20 @@ class Vehicle:
         density, sound = atmosphere(self.earth, x[1])
         qbar = 0.5 * density * v**2
         load = qbar * ref["area_m2_per_m"]
-        c_l = poly(self.aero["lift"], alpha, u[0]) + e.cl_eta @ eta + e.cl_rate @ rate
-        c_d = poly(self.aero["drag"], alpha, u[0]) + e.cd_eta @ eta + e.cd_rate @ rate
-        c_m = poly(self.aero["moment"], alpha, u[0]) + e.cm_eta @ eta + e.cm_rate @ rate
+        # What the fuel adds to lift, drag and moment: the pressure of the plume on the aft-body.
+        fits = (self.aero.get(key, {}) for key in ("lift_phi", "drag_phi", "moment_phi"))
+        l_phi, d_phi, m_phi = (u[1] * poly(fit, alpha) for fit in fits)
+        c_l = poly(self.aero["lift"], alpha, u[0]) + l_phi + e.cl_eta @ eta + e.cl_rate @ rate
+        c_d = poly(self.aero["drag"], alpha, u[0]) + d_phi + e.cd_eta @ eta + e.cd_rate @ rate
+        c_m = poly(self.aero["moment"], alpha, u[0]) + m_phi + e.cm_eta @ eta + e.cm_rate @ rate
         inlet = alpha + e.ct_eta @ eta + e.ct_rate @ rate
         c_t = poly(self.aero["thrust"], inlet) + u[1] * poly(self.aero["thrust_phi"], inlet)
         normal = c_l * np.cos(alpha) + c_d * np.sin(alpha)
         shift = self.x_cg - ref["moment_centre_m"]
         moment = load * (ref["chord_m"] * c_m + shift * normal + ref["thrust_arm_m"] * c_t)
-        modal = e.n_0 + e.n_alpha * alpha + e.n_alpha2 * alpha**2 + e.n_delta * u[0]
+        elevator = poly(self.aero["lift"], 0.0, u[0]) - poly(self.aero["lift"], 0.0)
+        modal = e.n_0 + e.n_alpha * alpha + e.n_alpha2 * alpha**2
+        modal = modal + e.n_elevator * elevator + e.n_plume * l_phi
         modal = modal + e.n_eta @ eta + e.n_rate @ rate + e.n_q * (q / v)
         engine = load * c_t * (e.lifted * np.sin(alpha) + e.turned)
         return {

@@ -17,10 +17,18 @@ TINY = 1e-30  # complex step
 
 
 def poly(terms: dict[str, float], alpha: Any, delta: Any = 0.0) -> Any:
-    """constant + alpha a + alpha2 a^2 + alpha3 a^3 + delta_e d + delta_e2 d^2 (rad)."""
+    """Polynomial in alpha and delta (rad) with the coefficients of a data file."""
     in_alpha = [terms.get(key, 0.0) for key in ("constant", "alpha", "alpha2", "alpha3")]
-    in_delta = terms.get("delta_e", 0.0) * delta + terms.get("delta_e2", 0.0) * delta**2
-    return sum(c * alpha**k for k, c in enumerate(in_alpha)) + in_delta
+    in_delta = [terms.get(key, 0.0) for key in ("delta_e", "delta_e2", "delta_e3")]
+    found = sum(c * alpha**k for k, c in enumerate(in_alpha))
+    found = found + sum(c * delta**k for k, c in enumerate(in_delta, 1))
+    return found + terms.get("alpha_delta_e", 0.0) * alpha * delta
+
+
+def slope(terms: dict[str, float], alpha: float, delta: float, along: str = "alpha") -> float:
+    """Derivative of a curve fit by alpha or by delta_e, 1/rad, by complex step."""
+    step = (1j * TINY, 0.0) if along == "alpha" else (0.0, 1j * TINY)
+    return float(np.imag(poly(terms, alpha + step[0], delta + step[1])) / TINY)
 
 
 def gravity(data: Any, h: Any) -> Any:
@@ -53,7 +61,8 @@ class Elastic:
     """Elastic derivatives of eq. (4), from two strips of the body and the elevator.
 
     Attributes, per m of eta or, for the rates, per rad of eta_dot/V: cl_eta, cl_rate (and cd, cm,
-    ct). Modal forces per qbar S: n_0, n_alpha, n_alpha2, n_delta, n_eta[i, j], n_rate[i, j], n_q.
+    ct). Modal forces per qbar S: n_0, n_alpha, n_alpha2, n_eta[i, j], n_rate[i, j], n_q; per qbar S
+    and C_L of the elevator alone n_elevator, of the plume n_plume.
     Modal forces per thrust: lifted * sin(alpha) + turned.
     Also x_e m, strip[power of alpha, strip], strip_slope 1/rad and kappa.
     """
@@ -62,11 +71,12 @@ class Elastic:
         """Elastic terms for the `geometry` table of the vehicle and one aerodynamic data file."""
         self.beam, self.modes = beam, modes
         ref, lift, drag, moment = (aero[k] for k in ("reference", "lift", "drag", "moment"))
-        chord, x_r, a_r = ref["chord_m"], ref["moment_centre_m"], ref["elastic_alpha_rad"]
+        chord, x_r = ref["chord_m"], ref["moment_centre_m"]
+        a_r, d_r = ref["elastic_alpha_rad"], ref.get("elastic_delta_e_rad", 0.0)
         edges = (0.0, geometry["fore_body_m"], geometry["length_m"])
         lengths = np.diff(edges)
         arms = (np.add(edges[1:], edges[:-1])) / 2.0 - x_r
-        cl_d, cm_d = lift["delta_e"], moment["delta_e"]
+        cl_d, cm_d = (slope(fit, a_r, d_r, "delta_e") for fit in (lift, moment))
         x_e = self.x_e = x_r - chord * cm_d / cl_d
         # Quadratics of the strip loads c_1, c_2: [power of alpha, strip].
         known = np.array(
@@ -74,7 +84,7 @@ class Elastic:
         )
         known[:, 1] -= cl_d, cm_d
         self.strip = np.linalg.solve(np.array([[1.0, 1.0], -arms / chord]), known).T
-        slope = self.strip_slope = self.strip[1] + 2.0 * a_r * self.strip[2]
+        self.strip_slope = self.strip[1] + 2.0 * a_r * self.strip[2]
 
         scale = ref["elastic_scale"]  # of all that answers to local incidence
 
@@ -96,18 +106,21 @@ class Elastic:
             """Weights of a load: its two strips' values and the elevator's."""
             return mean * np.asarray(loads)[strip_of]
 
-        local = scale * applied((*slope, cl_d))  # load per unit of local incidence
+        local = scale * applied((*self.strip_slope, cl_d))  # load per unit of local incidence
         self.cl_eta, self.cl_rate = -local @ rate, -local @ w
         self.cm_eta, self.cm_rate = local * (x - x_r) @ rate / chord, local * (x - x_r) @ w / chord
-        kappa = (poly(drag, a_r + 1j * TINY) / poly(lift, a_r + 1j * TINY).imag).imag
-        self.kappa = kappa
+        kappa = self.kappa = slope(drag, a_r, d_r) / slope(lift, a_r, d_r)
         self.cd_eta, self.cd_rate = kappa * self.cl_eta, kappa * self.cl_rate
         fore = applied((1.0, 0.0, 0.0))
         self.ct_eta, self.ct_rate = -scale * (fore @ rate), -scale * (fore @ w)
         self.n_0 = applied((*self.strip[0], 0.0)) @ w
         self.n_alpha = applied((*self.strip[1], cl_d)) @ w
         self.n_alpha2 = applied((*self.strip[2], 0.0)) @ w
-        self.n_delta = applied((0.0, 0.0, cl_d)) @ w
+        self.n_elevator = applied((0.0, 0.0, 1.0)) @ w
+        # One force for all the lift that the fuel adds, where its moment at a_r puts it.
+        plume = [poly(aero.get(key, {}), a_r) for key in ("lift_phi", "moment_phi")]
+        x_p = self.x_p = x_r - chord * plume[1] / plume[0] if plume[0] else None
+        self.n_plume = np.zeros(w.shape[1]) if x_p is None else self.shapes(np.array([x_p]))[0][0]
         self.n_eta, self.n_rate = -(w.T * local) @ rate, -(w.T * local) @ w
         self.n_q = (local * (x - beam.x_cg)) @ w
         # The thrust's virtual work: T sin(alpha) lifts the mass centre, T z_T turns the nacelle.

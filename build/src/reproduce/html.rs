@@ -84,7 +84,7 @@ fn entry(contents: &mut String, level: usize, words: &str, events: &[Event]) {
 fn mark(words: &str) -> Option<&'static str> {
     match words.chars().next()? {
         '✓' => Some("yes"),
-        '◐' => Some("half"),
+        '≈' | '◐' => Some("half"),
         '✗' => Some("no"),
         '∅' => Some("never"),
         _ => None,

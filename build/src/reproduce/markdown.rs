@@ -3,7 +3,7 @@
 use super::claims::{HARDLY, SLIGHT, Tested};
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
 use super::tables::{COLUMNS, Cell, REASONS, Table};
-use super::verdict::RANKS;
+use super::verdict::{Aim, NEAR, RANKS};
 use super::{advice, interaction::Interaction};
 use crate::table::number;
 
@@ -106,7 +106,7 @@ pub fn render(report: &Report) -> String {
 
 /// How the verdicts are spread.
 fn summary(report: &Report) -> String {
-    let row = |name: String, counts: [usize; 4]| -> [String; 5] {
+    let row = |name: String, counts: [usize; RANKS.len()]| -> [String; 1 + RANKS.len()] {
         let mut cells = vec![name];
         cells.extend(counts.map(|count| count.to_string()));
         cells.try_into().unwrap_or_default()
@@ -128,8 +128,16 @@ fn summary(report: &Report) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let [a, b, c, d] = RANKS;
-    format!("## Verdicts\n\n{}", table(["", a, b, c, d], 0, &rows))
+    let [a, b, c, d, e] = RANKS;
+    let aims: Vec<_> =
+        Aim::ALL.iter().map(|aim| format!("{} {} %", aim.of_what(), aim.percent())).collect();
+    format!(
+        "## Verdicts\n\n{}A number is reproduced within the limit of its kind: {}. It is near within \
+         {NEAR} times that; beyond, only its sign is right, or nothing. The limits are the same for \
+         every coefficient set, cell and column.\n\n",
+        table(["", a, b, c, d, e], 0, &rows),
+        aims.join(", ")
+    )
 }
 
 fn cells(of: &Table) -> String {

@@ -3,7 +3,7 @@
 use super::point::Point;
 use super::published::{Columns, Poles, Table1, Zeros};
 use super::roots::{Name, Root, find};
-use super::verdict::{Verdict, difference};
+use super::verdict::{Aim, Verdict, difference};
 use serde::Serialize;
 
 pub const COLUMNS: [&str; 3] = ["rigid body", "even mass", "sloshing mass"];
@@ -37,7 +37,7 @@ pub struct Table {
     pub unprinted: Vec<Unprinted>,
 }
 
-const INERTIA: &str = "pitch inertia";
+const INERTIA: &str = "one inertia, small jump";
 const DAMPING: &str = "structural damping";
 const DRIVE: &str = "drive of the mode";
 const STIFFNESS: &str = "elastic coefficients";
@@ -49,8 +49,10 @@ const NEUTRAL: &str = "nearly neutral";
 pub const REASONS: [(&str, &str); 7] = [
     (
         INERTIA,
-        "the size of the short period and of the real zeros goes with 1/sqrt(I_yy), and the printed \
-         I_yy is none of a vehicle that has the printed poles (erratum 3).",
+        "the size of the short period and of the real zeros goes with 1/sqrt(I_yy). Neither printed \
+         nor published I_yy gives the printed poles (erratum 3). Where a set has an identified one, \
+         it serves three columns at once, and elastic terms derived from rigid fits give too little \
+         of the printed jump from rigid to flexible (erratum 20).",
     ),
     (
         DAMPING,
@@ -60,7 +62,8 @@ pub const REASONS: [(&str, &str); 7] = [
     (
         DRIVE,
         "a zero lies where elevator and fuel leave V and gamma alone, so its place is decided by how \
-         the controls drive the mode. Those coefficients are not public (erratum 17).",
+         the controls drive the mode. Those coefficients are not public (erratum 17). The printed zeros of the even \
+         column contradict its poles (erratum 19).",
     ),
     (
         STIFFNESS,
@@ -93,9 +96,14 @@ impl Builder {
     }
 
     fn compare(&mut self, row: String, paper: f64, ours: Option<f64>, because: &str) {
-        // Imaginary parts are frequencies.
-        let signed = !row.ends_with("imaginary part");
-        self.put(row, paper, ours, Verdict::of(paper, ours, signed, because));
+        let aim = match &row {
+            row if row.ends_with("mode") => Aim::Identified,
+            row if row.ends_with("imaginary part") => Aim::Frequency,
+            row if row.ends_with("real part") => Aim::Damping,
+            _ => Aim::Real,
+        };
+        let signed = matches!(aim, Aim::Damping | Aim::Real);
+        self.put(row, paper, ours, Verdict::of(paper, ours, aim, signed, because));
     }
 
     /// A real root of ours; one that oscillates is no counterpart.

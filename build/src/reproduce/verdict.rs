@@ -2,9 +2,44 @@
 
 use serde::Serialize;
 
-/// Limits, per cent, that "reproduced within" is quoted in; what is beyond the last is not
-/// reproduced. The paper prints three to five digits and omits half of its data.
-const WITHIN: [f64; 6] = [0.1, 0.5, 1.0, 2.0, 5.0, 10.0];
+/// What a number must hold to be called reproduced, per cent. Each limit belongs to a kind of number,
+/// not to a cell or a result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aim {
+    /// Table 1, which the structure is identified from.
+    Identified,
+    /// Imaginary parts of poles and zeros.
+    Frequency,
+    /// Real poles and zeros.
+    Real,
+    /// Real parts of pairs.
+    Damping,
+}
+
+impl Aim {
+    pub const ALL: [Self; 4] = [Self::Identified, Self::Frequency, Self::Real, Self::Damping];
+
+    pub fn percent(self) -> f64 {
+        match self {
+            Self::Identified => 0.1,
+            Self::Frequency => 2.0,
+            Self::Real => 5.0,
+            Self::Damping => 10.0,
+        }
+    }
+
+    pub fn of_what(self) -> &'static str {
+        match self {
+            Self::Identified => "natural frequencies of Table 1",
+            Self::Frequency => "imaginary parts",
+            Self::Real => "real poles and zeros",
+            Self::Damping => "real parts of pairs",
+        }
+    }
+}
+
+/// A number is near if it misses its aim by no more than this factor.
+pub const NEAR: f64 = 2.0;
 /// Below this, rad/s, a value is a zero that rounding has touched.
 const ZERO: f64 = 1e-6;
 
@@ -14,6 +49,11 @@ pub enum Verdict {
     /// A number within so many per cent, or a claim as it stands.
     Reproduced {
         within_percent: Option<f64>,
+    },
+    /// Beyond its aim by no more than [`NEAR`].
+    Near {
+        within_percent: f64,
+        because: String,
     },
     /// Right direction, other size.
     SignOnly {
@@ -33,17 +73,22 @@ impl Verdict {
 
     /// Compares a number; `because` explains what is off. `signed` says that the sign means
     /// something: that of a frequency does not.
-    pub fn of(paper: f64, ours: Option<f64>, signed: bool, because: &str) -> Self {
+    pub fn of(paper: f64, ours: Option<f64>, aim: Aim, signed: bool, because: &str) -> Self {
         let because = because.to_string();
         let Some(ours) = ours else { return Self::NotReproduced { because } };
         if paper == 0.0 && ours.abs() < ZERO {
             return Self::Reproduced { within_percent: Some(0.0) };
         }
         let percent = difference(paper, ours).map_or(f64::INFINITY, |d| 100.0 * d.abs());
-        match WITHIN.into_iter().find(|limit| percent <= *limit) {
-            Some(limit) => Self::Reproduced { within_percent: Some(limit) },
-            None if signed && ours * paper > 0.0 && ours.abs() > ZERO => Self::SignOnly { because },
-            None => Self::NotReproduced { because },
+        let (limit, near) = (aim.percent(), NEAR * aim.percent());
+        if percent <= limit {
+            Self::Reproduced { within_percent: Some(limit) }
+        } else if percent <= near {
+            Self::Near { within_percent: near, because }
+        } else if signed && ours * paper > 0.0 && ours.abs() > ZERO {
+            Self::SignOnly { because }
+        } else {
+            Self::NotReproduced { because }
         }
     }
 
@@ -54,6 +99,9 @@ impl Verdict {
             Self::Reproduced { within_percent: Some(0.0) } => "✓ reproduced: both 0".into(),
             Self::Reproduced { within_percent: Some(limit) } => {
                 format!("✓ reproduced within {limit} %")
+            }
+            Self::Near { within_percent, because } => {
+                format!("≈ near, within {within_percent} %: {because}")
             }
             Self::SignOnly { because } => format!("◐ in sign only: {because}"),
             Self::NotReproduced { because } => format!("✗ not reproduced: {because}"),
@@ -66,7 +114,9 @@ impl Verdict {
     /// Why not, if it is a matter of reasons.
     pub fn because(&self) -> Option<&str> {
         match self {
-            Self::SignOnly { because } | Self::NotReproduced { because } => Some(because),
+            Self::Near { because, .. }
+            | Self::SignOnly { because }
+            | Self::NotReproduced { because } => Some(because),
             _ => None,
         }
     }
@@ -75,16 +125,17 @@ impl Verdict {
     pub fn rank(&self) -> usize {
         match self {
             Self::Reproduced { .. } => 0,
-            Self::SignOnly { .. } => 1,
-            Self::NotReproduced { .. } => 2,
-            Self::Impossible { .. } => 3,
+            Self::Near { .. } => 1,
+            Self::SignOnly { .. } => 2,
+            Self::NotReproduced { .. } => 3,
+            Self::Impossible { .. } => 4,
         }
     }
 }
 
 /// Names of the ranks.
-pub const RANKS: [&str; 4] =
-    ["✓ reproduced", "◐ in sign only", "✗ not reproduced", "∅ impossible: erratum"];
+pub const RANKS: [&str; 5] =
+    ["✓ reproduced", "≈ near", "◐ in sign only", "✗ not reproduced", "∅ impossible: erratum"];
 
 /// ours/paper - 1: positive if ours is larger in size, below -1 if the sign differs; none where the
 /// paper prints 0.
@@ -97,21 +148,23 @@ mod tests {
     use super::*;
 
     fn rank(paper: f64, ours: f64, signed: bool) -> usize {
-        Verdict::of(paper, Some(ours), signed, "").rank()
+        Verdict::of(paper, Some(ours), Aim::Real, signed, "").rank()
     }
 
     #[test]
     fn verdicts_follow_size_and_sign() {
         let within = |limit| Verdict::Reproduced { within_percent: Some(limit) };
-        assert_eq!(Verdict::of(19.72, Some(19.721), true, ""), within(0.1));
-        assert_eq!(Verdict::of(-2.0, Some(-2.09), true, ""), within(5.0));
-        assert_eq!(Verdict::of(0.0, Some(1e-9), true, ""), within(0.0));
-        assert_eq!(rank(3.173, 1.7, true), 1);
-        assert_eq!(rank(3.173, -3.173, true), 2);
-        assert_eq!(rank(0.0238, 0.0376, false), 2, "frequencies are positive by definition");
-        assert_eq!(rank(-2e-4, -1e-12, true), 2, "rounding has no sign");
-        assert_eq!(rank(0.0, 0.5, true), 2);
-        assert_eq!(Verdict::of(1.0, None, true, "").rank(), 2);
+        assert_eq!(Verdict::of(19.72, Some(19.721), Aim::Identified, false, ""), within(0.1));
+        assert_eq!(Verdict::of(-2.0, Some(-2.09), Aim::Real, true, ""), within(5.0));
+        assert_eq!(Verdict::of(0.0, Some(1e-9), Aim::Real, true, ""), within(0.0));
+        assert_eq!(rank(1.0, 1.049, true), 0);
+        assert_eq!(rank(1.0, 1.051, true), 1, "beyond its aim");
+        assert_eq!(rank(1.0, 1.101, true), 2, "beyond twice its aim");
+        assert_eq!(rank(3.173, -3.173, true), 3);
+        assert_eq!(rank(0.0238, 0.0376, false), 3, "frequencies are positive by definition");
+        assert_eq!(rank(-2e-4, -1e-12, true), 3, "rounding has no sign");
+        assert_eq!(rank(0.0, 0.5, true), 3);
+        assert_eq!(Verdict::of(1.0, None, Aim::Real, true, "").rank(), 3);
     }
 
     #[test]

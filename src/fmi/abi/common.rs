@@ -3,7 +3,7 @@
 use super::entry::{Component, deliver, enter, input, string};
 use crate::fmi::failure::Failure;
 use crate::fmi::guard::guarded;
-use crate::fmi::instance::Instance;
+use crate::fmi::instance::{Instance, Interface};
 use crate::fmi::lifecycle as calls;
 use crate::fmi::log::Message;
 use crate::fmi::sys::{self, FmiString, Real, Status};
@@ -33,9 +33,11 @@ fn instantiate(
     if name.map_err(|failure| failure.to_string())?.trim().is_empty() {
         return Err("the instance name must not be empty".to_string());
     }
-    if kind != sys::Type::CO_SIMULATION {
-        return Err("only fmi2CoSimulation is offered".to_string());
-    }
+    let interface = match kind {
+        sys::Type::MODEL_EXCHANGE => Interface::ModelExchange,
+        sys::Type::CO_SIMULATION => Interface::CoSimulation,
+        sys::Type(other) => return Err(format!("fmuType = {other} does not exist")),
+    };
     let (given, own) = (given.map_err(|failure| failure.to_string())?, guid());
     if given != own {
         return Err(format!(
@@ -43,7 +45,7 @@ fn instantiate(
              from the same FMU"
         ));
     }
-    Instance::new(logging_on).map_err(|error| error.to_string())
+    Instance::new(interface, logging_on).map_err(|error| error.to_string())
 }
 
 #[unsafe(no_mangle)]

@@ -177,10 +177,10 @@ pub(super) unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: the master passes arrays of nvr elements.
-        let (vr, _, _) = unsafe {
+        let (vr, order, value) = unsafe {
             (input("vr", vr, nvr)?, input("order", order, nvr)?, input("value", value, nvr)?)
         };
-        instance.set_input_derivatives(vr)
+        instance.set_input_derivatives(vr, order, value)
     };
     // SAFETY: the master passes one of its instances.
     unsafe { enter(c, &calls::SET_REAL_INPUT_DERIVATIVES, body) }
@@ -196,10 +196,12 @@ pub(super) unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: the master passes arrays of nvr elements.
-        let (vr, _, _) = unsafe {
+        let (vr, order, value) = unsafe {
             (input("vr", vr, nvr)?, input("order", order, nvr)?, output("value", value, nvr)?)
         };
-        instance.output_derivatives(vr)
+        instance.output_derivatives(vr, order, |i, real| {
+            value[i].write(real);
+        })
     };
     // SAFETY: the master passes one of its instances.
     unsafe { enter(c, &calls::GET_REAL_OUTPUT_DERIVATIVES, body) }
