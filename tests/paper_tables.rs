@@ -119,27 +119,18 @@ fn paper_table2_rigid_height_pole_must_be_zero() {
     assert!(poles[0].norm() < 1e-4 * printed.abs(), "{}", poles[0]);
 }
 
-/// Between the short periods of the even and the slosh column, relative.
-const SLOSH_STAYS: f64 = 0.02;
-
 #[test]
 fn paper_table2_signs_and_order_hold_with_published_and_identified_coefficients() {
-    // One unstable and one stable short-period pole, growing from rigid to even, and every
-    // aeroelastic pair damped, near the printed frequency. From even to slosh the printed pair
-    // grows by 6 and 3 %; ours stays (errata.md).
+    // One unstable and one stable short-period pole, growing from rigid over even to slosh, and
+    // every aeroelastic pair damped, near the printed frequency.
     let table = published();
     for set in [Xu2015, Parker2007] {
         let mut unstable = 0.0;
         for configuration in CONFIGURATIONS {
             let poles = linear(&vehicle_with(set, configuration)).poles();
             let real = real_parts(&poles);
-            let name = format!("{set:?}, {configuration:?}");
-            if configuration == Configuration::SloshBeam {
-                assert_close(&name, real[0], unstable, SLOSH_STAYS);
-            } else {
-                assert!(real[0] > unstable, "{name}");
-            }
-            assert!(real[real.len() - 1] < -real[0], "{name}");
+            assert!(real[0] > unstable, "{set:?}, {configuration:?}");
+            assert!(real[real.len() - 1] < -unstable, "{set:?}, {configuration:?}");
             unstable = real[0];
             let fast: Vec<_> = poles.iter().filter(|pole| pole.im > 1.0).collect();
             assert!(fast.iter().all(|pole| pole.re < 0.0), "{set:?}, {configuration:?}");
@@ -152,28 +143,49 @@ fn paper_table2_signs_and_order_hold_with_published_and_identified_coefficients(
                     .iter()
                     .map(|pole| deviation(pole.im, frequency, 1.0))
                     .fold(f64::INFINITY, f64::min);
-                // The air shifts the first slosh-beam mode down by 2 %; the paper has it 2 % up.
-                assert!(nearest < 0.04, "{set:?}, {column}: {frequency} is off by {nearest}");
+                // The air shifts the first slosh-beam mode down by 2.2 %; the paper has it 1.9 % up.
+                assert!(nearest < 0.041, "{set:?}, {column}: {frequency} is off by {nearest}");
             }
         }
+    }
+}
+
+/// What the tanks are identified with: one standard error of the growth (`cargo ahv identify beam`).
+const GROWTH: f64 = 0.01;
+
+#[test]
+fn paper_table2_short_period_grows_from_even_to_sloshing_mass() {
+    let table = published();
+    let size = |right: f64, left: f64| (-right * left).sqrt();
+    let printed = |column: &str| {
+        let pair = floats(&table["table2"][column]["short_term"]);
+        size(pair[0], pair[1])
+    };
+    for set in [Xu2015, Parker2007] {
+        let ours = |configuration| {
+            let real = real_parts(&linear(&vehicle_with(set, configuration)).poles());
+            size(real[0], real[real.len() - 1])
+        };
+        let growth = ours(Configuration::SloshBeam) / ours(Configuration::EvenMassBeam);
+        assert_close(&format!("{set:?}"), growth, printed("slosh") / printed("even"), GROWTH);
     }
 }
 
 /// What xu2015 reaches, relative, by column: rigid, even, slosh. Wanted were 5 %: the printed jump
 /// of the short period with the beam takes numbers that nobody would believe (`cargo ahv identify
 /// xu2015`).
-const XU2015_SHORT_PERIOD: [f64; 3] = [0.101, 0.230, 0.281];
+const XU2015_SHORT_PERIOD: [f64; 3] = [0.094, 0.235, 0.247];
 /// Size of the pair of real zeros, against the geometric mean of the printed pair.
-const XU2015_REAL_ZEROS: [f64; 3] = [0.060, 0.074, 0.087];
+const XU2015_REAL_ZEROS: [f64; 3] = [0.057, 0.071, 0.083];
 /// Frequency and real part of the aeroelastic pairs, by column (even, slosh) and mode. Wanted were
 /// 2 and 10 %.
 const XU2015_POLES: [[[f64; 2]; 3]; 2] = [
-    [[0.014, 0.169], [0.005, 0.087], [0.002, 0.109]],
-    [[0.038, 0.421], [0.006, 0.079], [0.007, 0.165]],
+    [[0.015, 0.169], [0.005, 0.087], [0.002, 0.109]],
+    [[0.039, 0.423], [0.006, 0.078], [0.0071, 0.165]],
 ];
 const XU2015_ZEROS: [[[f64; 2]; 3]; 2] = [
     [[0.188, 0.508], [0.230, 0.039], [0.186, 0.108]],
-    [[0.018, 0.394], [0.072, 0.028], [0.074, 0.152]],
+    [[0.020, 0.394], [0.072, 0.028], [0.074, 0.151]],
 ];
 
 #[test]

@@ -221,7 +221,8 @@ pub struct Test {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 What can be identified:
-  beam     stiffness and tanks: the most ordinary ones that give Table 1; writes their numbers in
+  beam     stiffness and tanks: the most ordinary ones that give Table 1 and, from even to
+           sloshing mass, the growth of the short period in Table 2; writes their numbers in
            src/data/vehicle.toml
   xu2015   coefficient set: parker2007 moved as little as possible towards Tables 2 and 3;
            writes src/data/aero/xu2015.toml

@@ -28,15 +28,13 @@ fn beam(options: &Identify) -> Result<()> {
     let data = Data { vehicle, ..Data::embedded()? };
     let model = beam::Model::new(data, beam::printed()?)?;
     let solution = model.solve()?;
-    let text = beam::file(&before, &solution.vehicle)?;
+    let report = beam::Report::new(&model, &solution)?;
+    let text = beam::file(&before, &solution.vehicle, &report.known())?;
     VehicleData::parse("vehicle.toml", &text)?;
-    if options.json || !options.check {
-        let report = beam::Report::new(&model, &solution)?;
-        if options.json {
-            println!("{}", serde_json::to_string_pretty(&report)?);
-        } else {
-            print!("{}", report.text());
-        }
+    if options.json {
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else if !options.check {
+        print!("{}", report.text());
     }
     settle(options, "beam", name, &text)
 }

@@ -76,9 +76,9 @@ fn pairs(list: &[[f64; 2]], what: &str, frequency: Option<f64>) -> Vec<Line> {
     named.collect()
 }
 
-/// Size of a pair of real zeros of opposite sign. Without derivatives by q, eqs (3)-(4) make them
-/// equal but for sign; the printed ones are not (errata.md), and their geometric mean is compared.
-fn size([right, left]: [f64; 2]) -> f64 {
+/// Size of a pair of real roots of opposite sign, their geometric mean. Without derivatives by q, eqs
+/// (3)-(4) make zeros equal but for sign; the printed ones are not (errata.md), so this is compared.
+pub fn size([right, left]: [f64; 2]) -> f64 {
     (-right * left).abs().sqrt()
 }
 
@@ -147,6 +147,11 @@ impl Roots {
     fn flexible(&self, count: usize) -> Option<&[Complex<f64>]> {
         self.pairs.get(self.pairs.len().checked_sub(count)?..)
     }
+}
+
+/// The unstable and the stable pole of the short period; none if it oscillates.
+pub fn short_period(linear: &Linear) -> Option<[f64; 2]> {
+    Roots::new(linear.poles()).outer()
 }
 
 /// What a trimmed vehicle puts into the cells of its column; none with roots of another kind than

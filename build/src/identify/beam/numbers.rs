@@ -10,8 +10,10 @@ use toml_edit::{DocumentMut, Value};
 
 /// Stations of the stiffness; their level, their tilt and the second differences between.
 pub const STATIONS: usize = 9;
-/// Level, tilt and second differences; then the centres and lengths of the tanks.
-pub const COORDINATES: usize = STATIONS + 4;
+/// Level, tilt and second differences; then the centres and lengths of the tanks, and the mass centre.
+pub const COORDINATES: usize = STATIONS + 5;
+/// Coordinate of the mass centre.
+const BALANCE: usize = STATIONS + 4;
 /// Coordinates of the tanks' centres.
 pub const CENTRES: [usize; 2] = [STATIONS, STATIONS + 1];
 
@@ -25,9 +27,15 @@ const CENTRE: f64 = 0.25;
 /// Length of a tank in the prior, over that of its beam, and the doubt of its logarithm.
 const FILLED: f64 = 0.5;
 const LENGTH: f64 = 0.5;
+/// Mass centre of the full vehicle about the published one, over the length of the vehicle: printed
+/// are the masses of two beams that put it at 55 ft, to the foot, without a word on the liquid.
+const OFF_BALANCE: f64 = 0.01;
 /// First natural frequency of a uniform free-free beam: `omega = FREE_FREE sqrt(EI / (m l^4))`,
 /// Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1.
 const FREE_FREE: f64 = 22.3733;
+
+/// Where the numbers come from, as the file says it.
+const FOUND: &str = "cargo ahv identify beam";
 
 /// Digits that are written: stiffness, significant; lengths in mm; share.
 const DIGITS: usize = 5;
@@ -36,7 +44,7 @@ const SHARES: f64 = 1e4;
 
 /// The most ordinary vehicle with the published masses. Each of its two beams has a tank in its
 /// middle, half as long as the beam. EI is uniform and gives the first even frequency, were the mass
-/// uniform too. The shares of the tanks follow from their centres: the mass centre is published.
+/// uniform too. The shares of the tanks put the mass centre where it is published.
 #[derive(Debug, Clone)]
 pub struct Prior {
     data: VehicleData,
@@ -44,7 +52,7 @@ pub struct Prior {
     /// Fore and aft beam, m.
     beams: [f64; 2],
     /// Of the full vehicle, m.
-    mass_centre: f64,
+    pub mass_centre: f64,
 }
 
 impl Prior {
@@ -101,7 +109,10 @@ impl Prior {
             tank.length_m.value = FILLED * beam * (LENGTH * point[STATIONS + 2 + j]).exp();
         }
         let [from, to] = [0, 1].map(|j| data.tank[j].centre_m.value);
-        let share = (to - self.mass_centre) / (to - from);
+        let off = OFF_BALANCE * data.geometry.length_m.value * point[BALANCE];
+        // The structure's own mass centre is the published one.
+        let liquid = self.mass_centre + off / data.mass.propellant_fraction.value;
+        let share = (to - liquid) / (to - from);
         data.tank[0].share.value = share;
         data.tank[1].share.value = 1.0 - share;
         data
@@ -175,32 +186,36 @@ pub fn rounded(mut data: VehicleData) -> VehicleData {
     data
 }
 
-/// The text of `vehicle.toml` with these numbers; all else stays.
-pub fn file(text: &str, data: &VehicleData) -> Result<String> {
+/// The text of `vehicle.toml` with these numbers and what is known of each, in the order of
+/// [`values`]; all else stays.
+pub fn file(text: &str, data: &VehicleData, known: &[String]) -> Result<String> {
     let mut document: DocumentMut = text.parse().context("vehicle.toml")?;
     let list: Vec<_> =
         data.beam.stiffness_n_m2_per_m.value.iter().map(|ei| format!("{ei:e}")).collect();
     let list = format!("[{}]", list.join(", "));
-    set(document["beam"]["stiffness_n_m2_per_m"].get_mut("value"), &list)?;
+    let source = format!("{FOUND}: known at the stations to {}", known[..STATIONS].join(", "));
+    set(&mut document["beam"]["stiffness_n_m2_per_m"], &list, &source)?;
     let tanks = document["tank"].as_array_of_tables_mut();
     let tanks = tanks.ok_or_else(|| anyhow!("vehicle.toml: no [[tank]]"))?;
-    for (table, tank) in tanks.iter_mut().zip(&data.tank) {
-        for (key, value) in [
-            ("centre_m", tank.centre_m.value),
-            ("length_m", tank.length_m.value),
-            ("share", tank.share.value),
-        ] {
-            set(table[key].get_mut("value"), &format!("{value:?}"))?;
-        }
+    let known = known[STATIONS..].split_at(4);
+    for (j, (table, tank)) in tanks.iter_mut().zip(&data.tank).enumerate() {
+        let about = |i: usize| format!("{FOUND}: known to {}", known.0[2 * j + i]);
+        let share =
+            format!("part of the propellant in this tank; {FOUND}: known to {}", known.1[0]);
+        set(&mut table["centre_m"], &format!("{:?}", tank.centre_m.value), &about(0))?;
+        set(&mut table["length_m"], &format!("{:?}", tank.length_m.value), &about(1))?;
+        set(&mut table["share"], &format!("{:?}", tank.share.value), &share)?;
     }
     Ok(document.to_string())
 }
 
-fn set(item: Option<&mut toml_edit::Item>, text: &str) -> Result<()> {
-    let value = item.and_then(toml_edit::Item::as_value_mut);
-    let value = value.ok_or_else(|| anyhow!("vehicle.toml: a number without value"))?;
-    let decor = value.decor().clone();
-    *value = text.parse::<Value>()?;
-    *value.decor_mut() = decor;
+fn set(item: &mut toml_edit::Item, number: &str, source: &str) -> Result<()> {
+    for (key, text) in [("value", number), ("source", &format!("{source:?}"))] {
+        let value = item.get_mut(key).and_then(toml_edit::Item::as_value_mut);
+        let value = value.ok_or_else(|| anyhow!("vehicle.toml: a number without {key}"))?;
+        let decor = value.decor().clone();
+        *value = text.parse::<Value>()?;
+        *value.decor_mut() = decor;
+    }
     Ok(())
 }

@@ -1,9 +1,10 @@
-//! What Table 1 says about the numbers, and what it leaves to the prior.
+//! What the data say about the numbers, and what they leave to the prior.
 
-use super::model::{FREQUENCIES, Model, PRINTED, Solution};
+use super::model::{DATA, DOUBT, FREQUENCIES, GROWTH, Model, Solution};
 use super::numbers::{COORDINATES, Scale, names, values, with_values};
 use crate::identify::fit::jacobian;
 use crate::table::{number, row, table};
+use ahv::beam::Beam;
 use ahv::params::VehicleData;
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
@@ -18,10 +19,10 @@ const NARROWED: f64 = 0.3;
 pub struct Report {
     /// Sum of squares of the coordinates: departures from the prior over their doubts.
     pub distance: f64,
-    /// Half of the last printed digit: what the standard errors assume of Table 1.
-    pub printed_accuracy_rad_per_s: f64,
+    /// Of the full vehicle: published, identified.
+    pub mass_centre_m: [f64; 2],
     pub numbers: Vec<Number>,
-    pub frequencies: Vec<Frequency>,
+    pub data: Vec<Datum>,
 }
 
 /// One number.
@@ -38,18 +39,20 @@ pub struct Number {
     pub error: f64,
     /// Part of the prior's variance that the data remove.
     pub decided_by_data: f64,
-    /// Of the six frequencies: relative change over that of the number, or per unit.
-    pub sensitivity: [f64; FREQUENCIES],
+    /// Of the data: relative change over that of the number, or per unit.
+    pub sensitivity: [f64; DATA],
 }
 
-/// One frequency.
+/// One printed fact.
 #[derive(Debug, Serialize)]
-pub struct Frequency {
-    pub column: &'static str,
-    pub mode: usize,
-    pub printed_rad_per_s: f64,
+pub struct Datum {
+    pub name: String,
+    pub unit: &'static str,
+    pub printed: f64,
+    /// Standard error that the fit assumes of it.
+    pub doubt: f64,
     /// With the digits that are written.
-    pub value_rad_per_s: f64,
+    pub value: f64,
 }
 
 /// The numbers on the scale of their doubts.
@@ -61,7 +64,7 @@ fn scaled(data: &VehicleData) -> DVector<f64> {
     DVector::from_iterator(names().len(), scaled)
 }
 
-/// Relative changes of the frequencies with each number on the scale of its doubt, one column per
+/// Relative changes of the data with each number on the scale of its doubt, one column per
 /// number.
 pub fn sensitivity(model: &Model, vehicle: &VehicleData) -> Result<DMatrix<f64>> {
     let at = scaled(vehicle);
@@ -72,12 +75,34 @@ pub fn sensitivity(model: &Model, vehicle: &VehicleData) -> Result<DMatrix<f64>>
             Scale::Difference => *value,
         });
         let moved = with_values(vehicle.clone(), &moved.collect::<Vec<_>>());
-        Some(DVector::from_row_slice(&model.frequencies(&moved)?.map(f64::ln)))
+        Some(DVector::from_row_slice(&model.found(&moved)?.map(f64::ln)))
     };
     jacobian(&logarithms, &at, &free).ok_or_else(|| anyhow!("no derivative at the solution"))
 }
 
+/// Of the full vehicle with its tanks, m; the structure has its own at the published place.
+fn mass_centre(data: &VehicleData) -> f64 {
+    let liquid: f64 = data.tank.iter().map(|tank| tank.share.value * tank.centre_m.value).sum();
+    let part = data.mass.propellant_fraction.value;
+    part * liquid + (1.0 - part) * Beam::even(data, 1.0).mass_properties(&[]).centre_m
+}
+
+impl Number {
+    /// An error as a factor or a difference.
+    fn within(&self, error: f64) -> String {
+        match self.errors_of_logarithm {
+            true => format!("x/ {:.2}", error.exp()),
+            false => format!("+- {error:.2}"),
+        }
+    }
+}
+
 impl Report {
+    /// What is known of each number, for the file.
+    pub fn known(&self) -> Vec<String> {
+        self.numbers.iter().map(|number| number.within(number.error)).collect()
+    }
+
     pub fn new(model: &Model, solution: &Solution) -> Result<Self> {
         let Solution { fit, vehicle } = solution;
         let lost = || anyhow!("no derivative at the solution");
@@ -108,49 +133,49 @@ impl Report {
             }
         };
         let numbers = names().into_iter().zip(values(vehicle)).enumerate().map(number).collect();
-        let found = model.frequencies(vehicle).ok_or_else(|| anyhow!("no modes"))?;
-        let frequency = |(i, value_rad_per_s): (usize, f64)| Frequency {
-            column: if i < FREQUENCIES / 2 { "even" } else { "slosh" },
-            mode: i % (FREQUENCIES / 2) + 1,
-            printed_rad_per_s: model.wanted[i],
-            value_rad_per_s,
+        let found = model.found(vehicle).ok_or_else(|| anyhow!("no modes"))?;
+        let datum = |(i, value): (usize, f64)| {
+            let column = if i < FREQUENCIES / 2 { "even" } else { "slosh" };
+            let mode = i % (FREQUENCIES / 2) + 1;
+            let (name, unit) = match i {
+                GROWTH => ("short period, slosh/even".to_string(), "1"),
+                _ => (format!("{column}, mode {mode}"), "rad/s"),
+            };
+            Datum { name, unit, printed: model.wanted[i], doubt: DOUBT[i], value }
         };
         Ok(Self {
             distance: fit.point.norm_squared(),
-            printed_accuracy_rad_per_s: PRINTED,
+            mass_centre_m: [model.prior.mass_centre, mass_centre(vehicle)],
             numbers,
-            frequencies: found.into_iter().enumerate().map(frequency).collect(),
+            data: found.into_iter().enumerate().map(datum).collect(),
         })
     }
 
     pub fn text(&self) -> String {
         format!(
-            "The most ordinary beam and tanks that give Table 1. Prior: EI of unknown level and tilt\n\
-             (a factor of ten), each station within sqrt(2) of the geometric mean of its neighbours;\n\
-             a tank in the middle of either beam, half as long as the beam (e^0.5), its centre within\n\
-             a quarter of the beam; the shares put the mass centre at the published 55 ft.\n\
-             Sum of squared departures over doubts: {}\n\n\
+            "The most ordinary beam and tanks that give Table 1 and the growth of the short period from\n\
+             even to sloshing mass in Table 2, with the published coefficients. Prior: EI of unknown\n\
+             level and tilt (a factor of ten), each station within sqrt(2) of the geometric mean of its\n\
+             neighbours; a tank in the middle of either beam, half as long as the beam (e^0.5), its\n\
+             centre within a quarter of the beam; the mass centre within 1 % of the length of the\n\
+             published 55 ft. Sum of squared departures over doubts: {}\n\
+             Mass centre of the full vehicle, m: published {}, identified {}\n\n\
              Numbers; standard errors as factors (x/) or differences (+-)\n{}\n\
-             Frequencies of Table 1, rad/s\n{}\n\
-             Change of the frequencies, per cent, for 10 % of EI or length, 1 m of centre, 0.1 of share\n{}",
+             Printed facts\n{}\n\
+             Change of the printed facts, per cent, for 10 % of EI or length, 1 m of centre, 0.1 of share\n{}",
             number(self.distance),
+            number(self.mass_centre_m[0]),
+            number(self.mass_centre_m[1]),
             self.number_table(),
-            self.frequency_table(),
+            self.data_table(),
             self.sensitivity_table(),
         )
     }
 
     fn number_table(&self) -> String {
         let mut rows =
-            vec![row(["number", "unit", "prior", "", "identified", "", "decided by Table 1", ""])];
+            vec![row(["number", "unit", "prior", "", "identified", "", "decided by the data", ""])];
         for line in &self.numbers {
-            let error = |error: f64| {
-                if line.errors_of_logarithm {
-                    format!("x/ {:.2}", error.exp())
-                } else {
-                    format!("+- {error:.2}")
-                }
-            };
             let verdict = match line.decided_by_data {
                 part if part >= DETERMINED => "determined",
                 part if part >= NARROWED => "narrowed",
@@ -160,9 +185,9 @@ impl Report {
                 line.name.clone(),
                 line.unit.to_string(),
                 number(line.prior),
-                error(line.prior_error),
+                line.within(line.prior_error),
                 number(line.value),
-                error(line.error),
+                line.within(line.error),
                 format!("{:.0} %", 100.0 * line.decided_by_data),
                 verdict.to_string(),
             ]);
@@ -170,22 +195,23 @@ impl Report {
         table(&rows)
     }
 
-    fn frequency_table(&self) -> String {
-        let mut rows = vec![row(["column, mode", "printed", "identified", "error"])];
-        for line in &self.frequencies {
-            let error = line.value_rad_per_s / line.printed_rad_per_s - 1.0;
+    fn data_table(&self) -> String {
+        let mut rows = vec![row(["datum", "unit", "printed", "doubt", "identified", "error"])];
+        for line in &self.data {
             rows.push(vec![
-                format!("{}, {}", line.column, line.mode),
-                format!("{:.2}", line.printed_rad_per_s),
-                format!("{:.4}", line.value_rad_per_s),
-                format!("{:+.4} %", 100.0 * error),
+                line.name.clone(),
+                line.unit.to_string(),
+                format!("{:.4}", line.printed),
+                number(line.doubt),
+                format!("{:.4}", line.value),
+                format!("{:+.4} %", 100.0 * (line.value / line.printed - 1.0)),
             ]);
         }
         table(&rows)
     }
 
     fn sensitivity_table(&self) -> String {
-        let columns = self.frequencies.iter().map(|line| format!("{} {}", line.column, line.mode));
+        let columns = self.data.iter().map(|line| line.name.clone());
         let mut rows = vec![std::iter::once("number".to_string()).chain(columns).collect()];
         for line in &self.numbers {
             let step = if line.unit == "m" && !line.errors_of_logarithm { 1.0 } else { 0.1 };
