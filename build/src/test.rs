@@ -68,7 +68,7 @@ fn check(command: &mut Command) -> Result<()> {
 
 /// What has to be on the machine, and the Debian package that brings it.
 fn prerequisites() -> Result<()> {
-    const NEEDED: [(&str, &[&str], &str); 4] = [
+    const NEEDED: [(&str, &[&str], &str); 5] = [
         ("cc", &["--version"], "gcc"),
         (
             "python3",
@@ -77,6 +77,8 @@ fn prerequisites() -> Result<()> {
         ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
+        // Ecos, one of the masters, is linked with it.
+        ("python3", &["-c", "import ctypes; ctypes.CDLL('libtbb.so.12')"], "libtbb12"),
     ];
     let works = |program: &str, arguments: &[&str]| {
         Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
