@@ -11,7 +11,7 @@ import pytest
 from fmpy.validation import validate_fmu
 
 from contract import COMPLETE, CONTRACT, ENUMERATIONS, EXPERIMENT, START, UNITS, Entry
-from harness import DERIVATIVES, ERROR, EVERYTHING, OK, STATES, Package
+from harness import DERIVATIVES, EVERYTHING, STATES, Package
 
 MAGIC = {"linux": b"\x7fELF\x02", "win": b"MZ", "darwin": b"\xcf\xfa\xed\xfe"}
 LIBRARY = {"linux": "ahv.so", "win": "ahv.dll", "darwin": "ahv.dylib"}
@@ -163,16 +163,3 @@ def test_verif_dependencies_are_ordered_and_complete(package: Package) -> None:
             assert len(unknown.get("dependenciesKind", "").split()) == len(indices)
         listed = [int(unknown.get("index")) for unknown in structure.find(part)]
         assert listed == sorted(listed)
-
-
-def test_verif_log_categories_are_those_declared(package: Package) -> None:
-    """The binary uses every declared category but that of internal errors, and no other."""
-    root = ElementTree.parse(package.folder / "modelDescription.xml").getroot()
-    declared = {category.get("name") for category in root.iter("Category")}
-    with package.instance(logging=True) as instance:
-        instance.initialise(configuration=1)
-        assert instance.status("fmi2EnterInitializationMode") == ERROR
-        instance.set(delta_e=0.2)
-        while instance.step_status(0.1) == OK:
-            pass
-        assert {message.category for message in instance.log} == declared - {"logStatusFatal"}
