@@ -203,16 +203,6 @@ impl<'a> Player<'a> {
         place
     }
 
-    /// A place for a state, or NULL: the standard has the function read what is there first.
-    fn place_for_state(&mut self, random: &mut Random) -> Array<FmuState> {
-        let mut place = Array::new(random, vec![null_mut()], null_mut());
-        if !place.sound {
-            place.pointer = null_mut();
-        }
-        self.unsound |= !place.sound;
-        place
-    }
-
     /// One of the saved states, or NULL.
     fn any_saved(&mut self, random: &mut Random) -> Option<Saved> {
         let null = self.saved.is_empty() || random.below(RARELY) == 0;
@@ -323,7 +313,7 @@ const PLAYS: [(&str, Play); 40] = [
         p.write(r, boolean, |_| c"".as_ptr(), set, get)
     }),
     ("fmi2GetFMUstate", |p, r| {
-        let place = p.place_for_state(r);
+        let place = p.place::<FmuState>(r, null_mut());
         let status = call!(p.get_state(place.pointer));
         let state = place.items[0];
         assert_eq!(state.is_null(), status != Status::Ok);
@@ -343,11 +333,13 @@ const PLAYS: [(&str, Play); 40] = [
         }
         status
     }),
-    ("fmi2FreeFMUstate", |p, _| {
-        let mut state = p.saved.last().map_or(null_mut(), |saved| saved.state);
-        let status = call!(p.free_state(&mut state));
-        if status == Status::Ok {
-            assert!(state.is_null());
+    ("fmi2FreeFMUstate", |p, r| {
+        let state = p.saved.last().map_or(null_mut(), |saved| saved.state);
+        let place = Array::new(r, vec![state], null_mut());
+        p.unsound = !place.sound && !place.pointer.is_null();
+        let status = call!(p.free_state(place.pointer));
+        assert!(place.items[0] == state || place.items[0].is_null());
+        if place.items[0].is_null() {
             p.saved.pop();
         }
         status
@@ -388,7 +380,7 @@ const PLAYS: [(&str, Play); 40] = [
         let size = bytes.len();
         let bytes = Array::new(r, bytes.into_iter().map(|byte| byte as _).collect(), 0);
         p.unsound |= !bytes.sound;
-        let place = p.place_for_state(r);
+        let place = p.place::<FmuState>(r, null_mut());
         let status = call!(p.deserialize(bytes.pointer, size, place.pointer));
         assert_eq!(place.items[0].is_null(), status != Status::Ok);
         p.slave.free(place.items[0]);
