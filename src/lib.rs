@@ -1,5 +1,5 @@
 //! Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and
-//! sloshing propellant, as a Rust library and as an FMI 2.0 co-simulation FMU.
+//! sloshing propellant, as a Rust library and as an FMI 2.0 FMU for co-simulation and model exchange.
 //!
 //! | module | what it holds | where it comes from |
 //! |---|---|---|

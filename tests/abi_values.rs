@@ -39,13 +39,13 @@ fn instantiation_says_why_it_fails_and_accepts_any_resource_location() {
     let functions = callbacks(&sink);
     let own = CString::new(guid()).unwrap();
     let (name, own) = (c"one".as_ptr(), own.as_ptr());
-    let (cs, me) = (Type::CO_SIMULATION, Type::MODEL_EXCHANGE);
+    let cs = Type::CO_SIMULATION;
     let cases = [
         (null(), cs, own, "", "instanceName is NULL"),
         (c"".as_ptr(), cs, own, "", "instance name must not be empty"),
         (c" \t".as_ptr(), cs, own, " \t", "instance name must not be empty"),
-        (name, me, own, "one", "only fmi2CoSimulation is offered"),
-        (name, Type(77), own, "one", "only fmi2CoSimulation is offered"),
+        (name, Type(2), own, "one", "fmuType = 2 does not exist"),
+        (name, Type(77), own, "one", "fmuType = 77 does not exist"),
         (name, cs, null(), "one", "fmuGUID is NULL"),
         (name, cs, c"{100%-#1}".as_ptr(), "one", "fmuGUID is {100%%-##1}"),
     ];

@@ -5,6 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn sources(folder: &str) -> Vec<(PathBuf, String)> {
+    files(folder, "rs")
+}
+
+fn files(folder: &str, kind: &str) -> Vec<(PathBuf, String)> {
     let mut found = Vec::new();
     let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
     while let Some(folder) = folders.pop() {
@@ -12,7 +16,7 @@ fn sources(folder: &str) -> Vec<(PathBuf, String)> {
             let path = entry.unwrap().path();
             if path.is_dir() {
                 folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "rs") {
+            } else if path.extension().is_some_and(|extension| extension == kind) {
                 let text = fs::read_to_string(&path).unwrap();
                 found.push((path, text));
             }
@@ -118,5 +122,27 @@ fn tidy_errata_count_on_and_name_tests_that_exist() {
             .iter()
             .any(|(path, text)| path.ends_with(name) || text.contains(&format!("fn {name}(")));
         assert!(found, "errata.md names {name}: no such test");
+    }
+}
+
+#[test]
+fn tidy_every_pain_in_the_table_has_tests_that_exist() {
+    let code: String = ["src", "build", "tests"]
+        .iter()
+        .flat_map(|folder| sources(folder))
+        .chain(files("tests/fmu", "py"))
+        .map(|(_, text)| text)
+        .collect();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/README.md");
+    let table = fs::read_to_string(path).unwrap();
+    let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    assert!(rows.len() > 10, "the table of pains");
+    for row in rows {
+        let tests: Vec<_> = row.split('`').skip(1).step_by(2).collect();
+        assert!(!tests.is_empty(), "no test: {row}");
+        for test in tests {
+            let exists = ["fn", "def"].iter().any(|word| code.contains(&format!("{word} {test}(")));
+            assert!(exists, "no such test: {test}");
+        }
     }
 }

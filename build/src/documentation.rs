@@ -48,7 +48,7 @@ pub fn html() -> Result<String> {
          <h1>ahv {version}</h1>\n\
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
-         2015, 81-88. FMI 2.0 co-simulation. Model {guid}.</p>\n\
+         2015, 81-88. FMI 2.0, co-simulation and model exchange. Model {guid}.</p>\n\
          <h2>Use</h2>\n\
          <p>Without any setting the vehicle flies level and trimmed; <code>delta_e</code> and \
          <code>phi</code> are deviations from trim. It is unstable in pitch, as every vehicle of \

@@ -1,5 +1,6 @@
 //! `cargo ahv`: describes, packages, flies and tests the ahv FMU.
 
+mod abuse;
 mod cli;
 mod describe;
 mod documentation;

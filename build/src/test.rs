@@ -2,7 +2,7 @@
 
 use crate::cli::{Describe, Test};
 use crate::workspace::{cargo, read, root, shown, target, write};
-use crate::{describe, package};
+use crate::{abuse, describe, package};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,15 +11,21 @@ use std::time::Instant;
 /// A named step.
 type Step = (&'static str, fn() -> Result<()>);
 
-const STEPS: [Step; 9] = [
+const STEPS: [Step; 12] = [
     ("prerequisites", prerequisites),
     ("format", || check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", || {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
     }),
-    ("Rust tests", || check(cargo().args(["test", "--workspace", "--no-fail-fast"]))),
+    ("Rust tests", || {
+        // The long fuzz has a step of its own.
+        check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
+    }),
     ("description", || describe::run(&Describe { check: true, file: None })),
     ("package", || package::build().map(|file| println!("{}", shown(&file)))),
+    ("C ABI fuzz", abuse::fuzz),
+    ("sanitizer", abuse::sanitizer),
+    ("valgrind", abuse::valgrind),
     ("Python lints", python_lints),
     ("FMI headers", fmi_headers),
     ("FMU tests", fmu_tests),
@@ -56,7 +62,8 @@ pub fn run(options: &Test) -> Result<()> {
     Ok(())
 }
 
-fn check(command: &mut Command) -> Result<()> {
+/// Runs a command that has to succeed.
+pub fn check(command: &mut Command) -> Result<()> {
     let program = command.get_program().to_string_lossy().into_owned();
     let first = command.get_args().next().unwrap_or_default().to_string_lossy().into_owned();
     let status = command.status().with_context(|| format!("cannot start {program}"))?;
@@ -68,7 +75,7 @@ fn check(command: &mut Command) -> Result<()> {
 
 /// What has to be on the machine, and the Debian package that brings it.
 fn prerequisites() -> Result<()> {
-    const NEEDED: [(&str, &[&str], &str); 4] = [
+    const NEEDED: [(&str, &[&str], &str); 5] = [
         ("cc", &["--version"], "gcc"),
         (
             "python3",
@@ -77,10 +84,9 @@ fn prerequisites() -> Result<()> {
         ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
+        // Ecos, one of the masters, is linked with it.
+        ("python3", &["-c", "import ctypes; ctypes.CDLL('libtbb.so.12')"], "libtbb12"),
     ];
-    let works = |program: &str, arguments: &[&str]| {
-        Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
-    };
     let mut missing: Vec<_> = NEEDED
         .into_iter()
         .filter(|(program, arguments, _)| !works(program, arguments))
@@ -90,10 +96,12 @@ fn prerequisites() -> Result<()> {
     if !missing.is_empty() {
         bail!("missing; on Debian: apt-get install {}", missing.join(" "));
     }
-    if !works("valgrind", &["--version"]) {
-        println!("valgrind is not installed: tests that need it are skipped");
-    }
     Ok(())
+}
+
+/// Whether a program can be run like this.
+pub fn works(program: &str, arguments: &[&str]) -> bool {
+    Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
 }
 
 /// The FMU in other masters, driven from Python.

@@ -197,12 +197,15 @@ impl Instance {
         if unknowns.is_empty() {
             return Ok(());
         }
-        let tangent = self.flight.tangent(state, input)?;
         for &reference in unknowns {
             let unknown = variable(reference, REAL)?;
             if matches!(unknown.role, Role::Input(_) | Role::Parameter | Role::Calculated) {
                 return Err(no_derivative(unknown, "as unknown: states, outputs and rates are"));
             }
+        }
+        let tangent = self.flight.tangent(state, input)?;
+        for &reference in unknowns {
+            let unknown = variable(reference, REAL)?;
             let value = unknown.get(&tangent);
             if !value.is_finite() {
                 return Err(Failure::NotFinite { variable: unknown.name, value });

@@ -34,6 +34,7 @@ fn elements_stand_in_the_order_of_the_schema() {
     let at = |depth| elements.iter().filter(move |(found, _)| *found == depth);
     let names = at(1).map(|(_, element)| element.name().into_inner().to_string());
     let expected = [
+        "ModelExchange",
         "CoSimulation",
         "UnitDefinitions",
         "TypeDefinitions",

@@ -119,6 +119,21 @@ pub(super) unsafe fn store<T>(argument: &'static str, pointer: *mut T, value: T)
     Ok(())
 }
 
+/// What a pointer leads to, to read it and to write it.
+///
+/// # Safety
+/// `pointer` is NULL or leads to a value that nobody else uses meanwhile.
+pub(super) unsafe fn place<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+) -> Result<&'a mut T, Failure> {
+    if !plausible(pointer, 1) {
+        return Err(Failure::BadPointer { argument });
+    }
+    // SAFETY: plausible, and valid by this function's contract.
+    Ok(unsafe { &mut *pointer })
+}
+
 /// A string; what is not UTF-8 is replaced, as it only goes into messages and comparisons.
 ///
 /// # Safety

@@ -92,9 +92,9 @@ unsafe fn per_state(
     get: impl FnOnce(&mut Instance) -> Result<State, Failure>,
 ) -> Status {
     let body = |instance: &mut Instance| {
-        let numbers = get(instance)?;
         // SAFETY: by this function's contract.
         let room = unsafe { output(argument, values, length) }?;
+        let numbers = get(instance)?;
         room.iter_mut().zip(numbers).for_each(|(place, number)| {
             place.write(number);
         });

@@ -1,7 +1,7 @@
 //! The FMU state and its bytes (section 2.1.8). A `fmi2FMUstate` is a boxed
 //! [`FmuState`](snapshot::FmuState): plain numbers that do not refer to the instance they are from.
 
-use super::entry::{enter, input, output, store};
+use super::entry::{enter, input, output, place, store};
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle as calls;
@@ -13,24 +13,23 @@ use core::ptr;
 ///
 /// # Safety
 /// `state` is NULL or a live FMU state of this library.
-unsafe fn given<'a>(state: sys::FmuState) -> Result<&'a FmuState, Failure> {
+unsafe fn given<'a>(state: sys::FmuState) -> Result<&'a mut FmuState, Failure> {
     // SAFETY: by this function's contract.
-    unsafe { state.cast::<FmuState>().as_ref() }.ok_or(Failure::BadPointer { argument: "FMUstate" })
+    unsafe { place("FMUstate", state.cast::<FmuState>()) }
 }
 
-/// Puts a state where `place` says: into the state that is there, or else into a new one.
+/// Puts a state where a pointer leads: into the state that is there, or else into a new one.
 ///
 /// # Safety
-/// `place` is NULL or leads to NULL or to a live FMU state of this library.
-unsafe fn put(place: *mut sys::FmuState, state: FmuState) -> Outcome {
+/// `pointer` is NULL or leads to NULL or to a live FMU state of this library.
+unsafe fn put(pointer: *mut sys::FmuState, state: FmuState) -> Outcome {
     // SAFETY: by this function's contract.
-    let Some(place) = (unsafe { place.as_mut() }) else {
-        return Err(Failure::BadPointer { argument: "FMUstate" });
-    };
-    // SAFETY: likewise.
-    match unsafe { place.cast::<FmuState>().as_mut() } {
-        Some(old) => *old = state,
-        None => *place = Box::into_raw(Box::new(state)).cast(),
+    let slot = unsafe { place("FMUstate", pointer) }?;
+    if slot.is_null() {
+        *slot = Box::into_raw(Box::new(state)).cast();
+    } else {
+        // SAFETY: likewise.
+        *unsafe { given(*slot) }? = state;
     }
     Ok(())
 }
@@ -60,13 +59,17 @@ pub(super) unsafe extern "C" fn fmi2FreeFMUstate(
     FMUstate: *mut sys::FmuState,
 ) -> Status {
     let body = |_: &mut Instance| {
-        // SAFETY: the master passes NULL, or a place with NULL or a state that it got here.
-        if let Some(place) = unsafe { FMUstate.as_mut() }
-            && !place.is_null()
-        {
+        if FMUstate.is_null() {
+            return Ok(());
+        }
+        // SAFETY: the master passes a place with NULL or a state that it got here.
+        let slot = unsafe { place("FMUstate", FMUstate) }?;
+        if !slot.is_null() {
+            // SAFETY: likewise.
+            let state: *mut FmuState = unsafe { given(*slot) }?;
             // SAFETY: the state was boxed by `put` and is freed once, as the place is cleared.
-            drop(unsafe { Box::from_raw(place.cast::<FmuState>()) });
-            *place = ptr::null_mut();
+            drop(unsafe { Box::from_raw(state) });
+            *slot = ptr::null_mut();
         }
         Ok(())
     };

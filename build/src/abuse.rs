@@ -1,0 +1,91 @@
+//! The C functions under abuse: many random calls, and fewer under tools that watch the memory.
+
+use crate::test::{check, works};
+use crate::workspace::{cargo, target};
+use anyhow::Result;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Environment variable with the number of random sequences of calls.
+pub const SEQUENCES: &str = "AHV_FUZZ";
+
+/// Sequences where nobody says how many: half a minute in a release build.
+const FUZZ: &str = "20000";
+/// A memory checker slows them down ten to fifty times.
+const SANITIZED: &str = "500";
+const WATCHED: &str = "40";
+
+/// The only target with both tools.
+const TARGET: &str = "x86_64-unknown-linux-gnu";
+
+/// Tests of the shared library; not `abi_reload`, which measures memory that the tools use too.
+const TESTS: [&str; 7] = [
+    "abi_fuzz",
+    "abi_lifecycle",
+    "abi_logging",
+    "abi_state",
+    "abi_steps",
+    "abi_threads",
+    "abi_values",
+];
+
+fn tests(names: &[&str]) -> Command {
+    let mut command = cargo();
+    command.args(["test", "--quiet", "--package", "ahv-fmu"]);
+    for name in names {
+        command.args(["--test", name]);
+    }
+    command
+}
+
+/// Random sequences of calls, at full speed.
+pub fn fuzz() -> Result<()> {
+    let wanted = std::env::var(SEQUENCES).unwrap_or_else(|_| FUZZ.to_string());
+    check(tests(&["abi_fuzz"]).args(["--release", "--", "--nocapture"]).env(SEQUENCES, wanted))
+}
+
+/// The run-time library of AddressSanitizer, if this toolchain brings it.
+fn sanitizer_runtime() -> Option<PathBuf> {
+    let output = Command::new("rustc").args(["--print", "target-libdir"]).output().ok()?;
+    let folder = String::from_utf8(output.stdout).ok()?;
+    let here = cfg!(all(target_os = "linux", target_arch = "x86_64", target_env = "gnu"));
+    let entries = std::fs::read_dir(folder.trim()).ok().filter(|_| here)?;
+    entries.flatten().map(|entry| entry.path()).find(|path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        name.contains("_rt.asan")
+    })
+}
+
+/// AddressSanitizer and its leak check, in the library and its tests (not in the standard library).
+pub fn sanitizer() -> Result<()> {
+    if sanitizer_runtime().is_none() {
+        println!("left out: this toolchain has no AddressSanitizer");
+        return Ok(());
+    }
+    check(
+        tests(&TESTS)
+            .args(["--target", TARGET, "--target-dir"])
+            .arg(target().join("sanitizer"))
+            .args(["--", "--nocapture"])
+            .env(SEQUENCES, SANITIZED)
+            // The flag is not stable yet; the compiler is the same.
+            .env("RUSTC_BOOTSTRAP", "1")
+            // The shared library finds the run-time library's functions in the test program.
+            .env("RUSTFLAGS", "-Zsanitizer=address -Clink-arg=-Wl,--export-dynamic"),
+    )
+}
+
+/// A sample in valgrind: no invalid access, no use of unset memory, nothing lost.
+pub fn valgrind() -> Result<()> {
+    if !works("valgrind", &["--version"]) {
+        println!("left out: valgrind is not installed");
+        return Ok(());
+    }
+    let runner = "target.'cfg(all())'.runner = 'valgrind --quiet --error-exitcode=9 \
+                  --leak-check=full --show-leak-kinds=definite --errors-for-leak-kinds=definite'";
+    check(
+        tests(&["abi_fuzz", "abi_state"])
+            .args(["--config", runner, "--", "--nocapture", "--test-threads=1"])
+            .env(SEQUENCES, WATCHED),
+    )
+}

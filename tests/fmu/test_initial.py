@@ -1,0 +1,75 @@
+"""The InitialUnknowns of ModelStructure: complete, and true for the binary."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from harness import INPUTS, Package
+
+# Where parameters are moved from: each has an effect in one of these.
+UNTRIMMED = {"trim": False, "alpha0": 0.02, "q0": 0.03, "eta10": 0.05, "phi": 0.3}
+BASES = [
+    {"configuration": 3},
+    {"configuration": 2, **UNTRIMMED},
+    # The one set in which the fuel changes the lift, and masses that move against their tanks.
+    {"configuration": 3, "aero": 3, **UNTRIMMED},
+]
+# What has an effect only when the masses move: they start at rest.
+LATER = ("slosh_damping",)
+# Another value for each parameter and input.
+MOVED = {
+    **{"configuration": 1, "aero": 2, "fuel_fraction": 0.6, "slosh_damping": 0.1},
+    **{"slosh_frequency": 12.0, "mach0": 7.5, "altitude0": 25000.0, "gamma0": 0.01},
+    **{"trim": False, "input_mode": 2, "alpha0": 0.03, "q0": 0.05},
+    **{"eta10": 0.04, "eta20": 0.03, "eta30": 0.02, "delta_e": 0.05, "phi": 0.2},
+}
+
+
+def initial(package: Package, given: dict[str, Any]) -> np.ndarray:
+    """All initial unknowns, in initialization mode."""
+    names = [unknown.variable.name for unknown in package.description.initialUnknowns]
+    with package.instance() as instance:
+        instance.set(**given)
+        instance.setup()
+        return instance.get(*names)
+
+
+def test_verif_initial_unknowns_are_all_that_is_computed(package: Package) -> None:
+    """Each output, calculated parameter, state and derivative, once, in ascending order."""
+    description = package.description
+    states = {unknown.variable.derivative.name for unknown in description.derivatives}
+    rates = {unknown.variable.name for unknown in description.derivatives}
+    expected = [
+        variable.name
+        for variable in description.modelVariables
+        if variable.initial in ("calculated", "approx")
+        and (
+            variable.causality in ("output", "calculatedParameter")
+            or variable.name in states | rates
+        )
+    ]
+    assert [unknown.variable.name for unknown in description.initialUnknowns] == expected
+
+
+@pytest.mark.parametrize("known", MOVED)
+def test_verif_initial_unknowns_claim_what_moves_them(package: Package, known: str) -> None:
+    """What moves with a parameter or input says so, and what claims an input moves with it."""
+    moved = False
+    for base in BASES:
+        moved = moved | (initial(package, base) != initial(package, base | {known: MOVED[known]}))
+    assert moved.any() == (known not in LATER)
+    for unknown, moves in zip(package.description.initialUnknowns, moved, strict=True):
+        claimed = known in {variable.name for variable in unknown.dependencies}
+        exact = known in INPUTS
+        assert claimed == moves if exact else claimed or not moves, unknown.variable.name
+
+
+def test_verif_every_parameter_and_input_is_moved(package: Package) -> None:
+    """The test above knows all of them."""
+    settable = {
+        name for name, v in package.variables.items() if v.causality in ("parameter", "input")
+    }
+    assert set(MOVED) == settable
