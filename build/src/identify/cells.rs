@@ -1,12 +1,12 @@
 //! The cells of Tables 2 and 3: what is printed, how closely it is wanted, what a vehicle gives.
 
+use crate::published::Published;
 use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
 use ahv::trim::Trim;
 use ahv::vehicle::Configuration;
-use anyhow::{Context, Result};
+use anyhow::Result;
 use nalgebra::Complex;
-use serde::Deserialize;
 
 /// The columns of the tables.
 pub const COLUMNS: [Configuration; 3] =
@@ -35,35 +35,6 @@ impl Cell {
     }
 }
 
-#[derive(Deserialize)]
-struct Published {
-    table2: Columns<Poles>,
-    table3: Columns<Zeros>,
-}
-
-#[derive(Deserialize)]
-struct Columns<T> {
-    rigid: T,
-    even: T,
-    slosh: T,
-}
-
-#[derive(Deserialize)]
-struct Poles {
-    long_term: [f64; 2],
-    short_term: [f64; 2],
-    height: f64,
-    #[serde(default)]
-    aeroelastic: Vec<[f64; 2]>,
-}
-
-#[derive(Deserialize)]
-struct Zeros {
-    real: [f64; 3],
-    #[serde(default)]
-    aeroelastic: Vec<[f64; 2]>,
-}
-
 /// Name, printed number, wanted accuracy.
 type Line = (String, f64, Option<f64>);
 
@@ -84,8 +55,7 @@ pub fn size([right, left]: [f64; 2]) -> f64 {
 
 /// All cells, column by column, in the order of [`values`].
 pub fn cells() -> Result<Vec<Cell>> {
-    let text = include_str!("../../../src/data/published.toml");
-    let Published { table2, table3 } = toml::from_str(text).context("published.toml")?;
+    let Published { table2, table3, .. } = Published::embedded()?;
     let columns =
         [(table2.rigid, table3.rigid), (table2.even, table3.even), (table2.slosh, table3.slosh)];
     let mut cells = Vec::new();

@@ -8,7 +8,6 @@ mod html;
 mod interaction;
 mod markdown;
 mod point;
-mod published;
 mod report;
 mod roots;
 mod sets;

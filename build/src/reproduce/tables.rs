@@ -1,9 +1,9 @@
 //! Tables 1 to 3, cell by cell.
 
 use super::point::Point;
-use super::published::{Columns, Poles, Table1, Zeros};
 use super::roots::{Name, Root, find};
 use super::verdict::{Aim, Verdict, difference};
+use crate::published::{Columns, Poles, Table1, Zeros};
 use serde::Serialize;
 
 pub const COLUMNS: [&str; 3] = ["rigid body", "even mass", "sloshing mass"];

@@ -4,6 +4,7 @@
 use super::numbers::{CENTRES, COORDINATES, Prior, rounded};
 use crate::identify::cells::{short_period, size};
 use crate::identify::fit::{Fit, minimise};
+use crate::published::Published;
 use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
 use ahv::modes::FLEXIBLE;
@@ -13,7 +14,6 @@ use ahv::trim::trim;
 use ahv::vehicle::{AeroSet, Body, Build, Configuration, Data};
 use anyhow::{Context, Result};
 use nalgebra::DVector;
-use serde::Deserialize;
 
 /// Frequencies of Table 1: the even column, then the slosh column.
 pub const FREQUENCIES: usize = 2 * FLEXIBLE;
@@ -30,35 +30,11 @@ const WEIGHTS: [f64; 4] = [1e6, 1e4, 1e2, 1.0];
 const NEAR: f64 = 1e-2;
 const CONVERGED: f64 = 1e-7;
 
-#[derive(Deserialize)]
-struct Published {
-    table1: Table1,
-    table2: Table2,
-}
-
-#[derive(Deserialize)]
-struct Table1 {
-    even: [f64; FLEXIBLE],
-    slosh: [f64; FLEXIBLE],
-}
-
-#[derive(Deserialize)]
-struct Table2 {
-    even: Column,
-    slosh: Column,
-}
-
-#[derive(Deserialize)]
-struct Column {
-    short_term: [f64; 2],
-}
-
 /// What is printed: Table 1, rad/s, and by which factor the short period of Table 2 grows from even
 /// to sloshing mass, geometric means of its two poles. No other number of the paper depends on where
 /// the liquid stands and so little on the coefficients, which are not known.
 pub fn printed() -> Result<[f64; DATA]> {
-    let text = include_str!("../../../../src/data/published.toml");
-    let Published { table1, table2 } = toml::from_str(text).context("published.toml")?;
+    let Published { table1, table2, .. } = Published::embedded()?;
     let mut all = [0.0; DATA];
     all[..FLEXIBLE].copy_from_slice(&table1.even);
     all[FLEXIBLE..FREQUENCIES].copy_from_slice(&table1.slosh);
