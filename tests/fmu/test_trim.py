@@ -98,7 +98,7 @@ def test_verif_trim_and_frequencies_equal_the_oracle(
         ({"mach0": 2.0}, "mach"),
         ({"altitude0": 60e3}, "altitude"),
         ({"altitude0": 60e3, "configuration": 1}, "altitude"),
-        ({"mach0": 7.0, "altitude0": 38e3}, "alpha"),
+        ({"mach0": 7.0, "altitude0": 38e3, "configuration": 1}, "alpha"),
         ({"mach0": 6.5, "altitude0": 35e3}, "delta_e"),
         ({"gamma0": 1.0}, "phi"),
     ],
