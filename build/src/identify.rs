@@ -3,9 +3,11 @@
 mod beam;
 mod cells;
 mod fit;
+mod knowledge;
 mod numbers;
 mod path;
 mod report;
+mod tradeoff;
 
 use crate::cli::{Identified, Identify};
 use crate::workspace::{read_text, root, shown, write};
@@ -13,6 +15,7 @@ use ahv::params::VehicleData;
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
 use report::Report;
+pub use tradeoff::{Moved, Place, TradeOff};
 
 pub fn run(options: &Identify) -> Result<()> {
     match options.what {
@@ -44,7 +47,7 @@ fn xu2015(options: &Identify) -> Result<()> {
     let chosen = model.chosen()?;
     let text = model.origin.file(&chosen.fit.point)?;
     if options.json || !options.check {
-        let (path, knee) = model.path()?;
+        let (path, knee) = model.path(&|_| ())?;
         let report = Report::new(&model, &path, knee, &chosen)?;
         if options.json {
             println!("{:#}", report.json());

@@ -130,6 +130,49 @@ fn only_what_was_asked_for_is_made() {
 }
 
 #[test]
+fn the_trade_off_falls_to_its_knee_and_far_numbers_stand_beside_ours() {
+    let (directory, json) = report(&["--only", "tradeoff,table2"]);
+    let trade_off = &json["trade_off"];
+    let places = trade_off["places"].as_array().unwrap();
+    let of = |i: usize, key: &str| places[i][key].as_f64().unwrap();
+    let knee = trade_off["knee"].as_u64().unwrap() as usize;
+    assert!(knee > 2 && knee + 3 < places.len());
+    for i in 1..places.len() {
+        assert!(of(i, "distance") > of(i - 1, "distance") && of(i, "misfit") < of(i - 1, "misfit"));
+    }
+    let numbers = trade_off["numbers"].as_array().unwrap();
+    let moved = numbers.iter().filter(|number| number["factor"] != 1.0);
+    assert!((3..10).contains(&moved.count()), "few numbers move");
+    for number in numbers {
+        let of = |key: &str| number[key].as_f64().unwrap();
+        assert!(of("error_factor") > 1.0 && of("error_factor") < of("doubt_factor"), "{number}");
+        assert!((0.0..=1.0).contains(&of("decided_by_data")), "{number}");
+    }
+    let cells = json["sets"][0]["tables"][0]["cells"].as_array().unwrap();
+    let off = |cell: &Value, key: &str| {
+        (cell[key].as_f64().unwrap() / cell["paper"].as_f64().unwrap() - 1.0).abs()
+    };
+    for cell in cells.iter().filter(|cell| cell["row"].as_str().unwrap().starts_with("short")) {
+        assert!(off(cell, "far") < off(cell, "ours"), "{cell}");
+    }
+    let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
+    assert!(markdown.contains("best that implausible numbers could do"));
+    assert!(directory.path().join("figures/tradeoff.png").exists());
+}
+
+#[test]
+fn errors_of_the_fit_are_in_every_form() {
+    let (directory, json) = report(&["--only", "fit"]);
+    let rows = json["fit"]["rows"].as_array().unwrap();
+    let held_out = rows.iter().find(|row| row["what"] == "held out, rms").unwrap();
+    let [ref first, ..] = held_out["values"].as_array().unwrap()[..] else { panic!("{held_out}") };
+    for name in ["report.md", "report.html"] {
+        let text = fs::read_to_string(directory.path().join(name)).unwrap();
+        assert!(text.contains("held out, rms") && text.contains(&first.to_string()), "{name}");
+    }
+}
+
+#[test]
 fn the_page_stands_alone() {
     let (directory, _) = report(&["--only", "fig3,interaction,errata"]);
     let html = fs::read_to_string(directory.path().join("report.html")).unwrap();

@@ -2,6 +2,8 @@
 
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
+use std::panic::resume_unwind;
+use std::thread;
 
 /// Central differences: the truncation error of a smooth residual is then below 1e-9.
 const STEP: f64 = 1e-5;
@@ -16,7 +18,7 @@ const TIGHTEN: f64 = 5.0;
 const STUCK: f64 = 1e12;
 
 /// Residuals at a point; none where the model has no answer (no trim, no such root).
-pub type Residual<'a> = dyn Fn(&DVector<f64>) -> Option<DVector<f64>> + 'a;
+pub type Residual<'a> = dyn Fn(&DVector<f64>) -> Option<DVector<f64>> + Sync + 'a;
 
 /// A minimum.
 #[derive(Debug, Clone)]
@@ -53,22 +55,31 @@ fn cost(residual: &DVector<f64>, point: &DVector<f64>, weight: f64) -> f64 {
     residual.norm_squared() + weight * point.norm_squared()
 }
 
-/// d residual / d point. Directions in `held` are left at zero.
+/// d residual / d point, its columns on all processors. Directions in `held` are left at zero.
 pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Option<DMatrix<f64>> {
-    let mut columns = Vec::with_capacity(point.len());
     let count = residual(point)?.len();
-    for (i, held) in held.iter().enumerate() {
-        if *held {
-            columns.push(DVector::zeros(count));
-            continue;
+    let column = |i: usize| {
+        if held[i] {
+            return Some(DVector::zeros(count));
         }
         let shifted = |step: f64| {
             let mut point = point.clone();
             point[i] += step;
             residual(&point)
         };
-        let (above, below) = (shifted(STEP)?, shifted(-STEP)?);
-        columns.push((above - below) * (0.5 / STEP));
+        Some((shifted(STEP)? - shifted(-STEP)?) * (0.5 / STEP))
+    };
+    let all: Vec<usize> = (0..held.len()).collect();
+    let workers = thread::available_parallelism().map_or(1, usize::from);
+    let part = |indices: &[usize]| indices.iter().map(|i| column(*i)).collect::<Option<Vec<_>>>();
+    let parts: Vec<_> = thread::scope(|scope| {
+        let chunks = all.chunks(all.len().div_ceil(workers).max(1));
+        let running: Vec<_> = chunks.map(|chunk| scope.spawn(|| part(chunk))).collect();
+        running.into_iter().map(|worker| worker.join()).collect()
+    });
+    let mut columns = Vec::with_capacity(all.len());
+    for part in parts {
+        columns.extend(part.unwrap_or_else(|panic| resume_unwind(panic))?);
     }
     Some(DMatrix::from_columns(&columns))
 }

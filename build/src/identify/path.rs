@@ -15,6 +15,8 @@ use nalgebra::{DMatrix, DVector};
 const FIRST_WEIGHT: f64 = 1e4;
 const LAST_WEIGHT: f64 = 1e-2;
 const STEPS_PER_DECADE: i32 = 4;
+/// A step that ends the search beyond the knee: what is found there is shown, and not used.
+const SHOWN: f64 = 1e-4;
 /// A number that would move by less stays where it is.
 const STAYS: f64 = 0.01;
 /// Part of its range, about the middle, that a trimmed control or incidence may use freely, and
@@ -124,22 +126,30 @@ impl Model {
         Some(DVector::from_iterator(scaled.clone().count() + room.len(), scaled.chain(room)))
     }
 
-    fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64) -> Result<Point> {
-        let fit = minimise(&|point| self.residual(point), start, held, weight, CONVERGED)
+    fn fit(
+        &self,
+        start: &DVector<f64>,
+        held: &[bool],
+        weight: f64,
+        converged: f64,
+    ) -> Result<Point> {
+        let fit = minimise(&|point| self.residual(point), start, held, weight, converged)
             .with_context(|| format!("weight {weight:.1e}"))?;
         Ok(Point { weight, fit })
     }
 
     /// The branch of the trade-off that begins at the published set: each point starts from the one
-    /// before. It is followed until its knee is known, or to its end.
-    fn branch(&self, until_knee: bool) -> Result<Vec<Point>> {
+    /// before. It is followed until its knee is known, or to its end. `tell` hears of every point.
+    fn branch(&self, until_knee: bool, tell: &dyn Fn(&Point)) -> Result<Vec<Point>> {
         let decades = (FIRST_WEIGHT / LAST_WEIGHT).log10().round() as i32;
         let mut start = DVector::zeros(MOVABLE.len());
         let mut path: Vec<Point> = Vec::new();
         for step in 0..=decades * STEPS_PER_DECADE {
             let weight = FIRST_WEIGHT * 10f64.powf(-f64::from(step) / f64::from(STEPS_PER_DECADE));
-            let point = self.fit(&start, &[false; MOVABLE.len()], weight)?;
+            let converged = if knee(&path).is_none() { CONVERGED } else { SHOWN };
+            let point = self.fit(&start, &[false; MOVABLE.len()], weight, converged)?;
             start.copy_from(&point.fit.point);
+            tell(&point);
             path.push(point);
             if until_knee && knee(&path).is_some() {
                 break;
@@ -150,7 +160,7 @@ impl Model {
 
     /// The point that is chosen, and nothing beyond it.
     pub fn chosen(&self) -> Result<Point> {
-        let path = self.branch(true)?;
+        let path = self.branch(true, &|_| ())?;
         let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
         self.sparse(&path[knee])
     }
@@ -158,13 +168,14 @@ impl Model {
     /// The whole trade-off and the index of its knee. Beyond the knee the path is gone back up as
     /// well, and the better of two points stays: there are several valleys, far from the published
     /// set, and there may be more.
-    pub fn path(&self) -> Result<(Vec<Point>, usize)> {
-        let mut path = self.branch(false)?;
+    pub fn path(&self, tell: &dyn Fn(&Point)) -> Result<(Vec<Point>, usize)> {
+        let mut path = self.branch(false, tell)?;
         let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
         for i in (knee + 2..path.len() - 1).rev() {
             let start = path[i + 1].fit.point.clone();
-            let other = self.fit(&start, &[false; MOVABLE.len()], path[i].weight)?;
+            let other = self.fit(&start, &[false; MOVABLE.len()], path[i].weight, SHOWN)?;
             let weight = path[i].weight;
+            tell(&other);
             if other.fit.cost(weight) < path[i].fit.cost(weight) {
                 path[i] = other;
             }
@@ -183,7 +194,7 @@ impl Model {
             }
             let mut start = sparse.fit.point;
             start.iter_mut().zip(&held).filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
-            sparse = self.fit(&start, &held, point.weight)?;
+            sparse = self.fit(&start, &held, point.weight, CONVERGED)?;
         }
     }
 

@@ -1,15 +1,13 @@
 //! What is shown of an identification.
 
+use super::knowledge::Knowledge;
 use super::numbers::{MOVABLE, ratios};
 use super::path::{Model, Point, bends};
 use crate::table::{number, row, table};
 use anyhow::{Result, anyhow};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde_json::{Value, json};
 use std::fmt::Write;
-
-/// Parts of a combination that are smaller are not shown.
-const SHOWN: f64 = 0.25;
 
 /// Values of the cells with one set, and its trims.
 struct Filled {
@@ -26,43 +24,6 @@ impl Filled {
         };
         let (values, trims) = answer().ok_or_else(|| anyhow!("{name} has no trim"))?;
         Ok(Self { name, values, trims })
-    }
-}
-
-/// What the data say about the numbers at the chosen point.
-struct Knowledge {
-    singular_values: Vec<f64>,
-    /// Unit combinations of ln ratio / doubt that belong to them, one per column.
-    combinations: DMatrix<f64>,
-    /// Part of each number that the data decide; the norm decides the rest.
-    resolution: Vec<f64>,
-}
-
-impl Knowledge {
-    fn new(sensitivity: DMatrix<f64>, weight: f64) -> Result<Self> {
-        let svd = sensitivity.svd(false, true);
-        let v_t = svd.v_t.ok_or_else(|| anyhow!("no singular vectors"))?;
-        let share = svd.singular_values.map(|s| s * s / (s * s + weight));
-        let resolved = |i: usize| (0..share.len()).map(|k| v_t[(k, i)].powi(2) * share[k]).sum();
-        Ok(Self {
-            singular_values: svd.singular_values.iter().copied().collect(),
-            resolution: (0..MOVABLE.len()).map(resolved).collect(),
-            combinations: v_t.transpose(),
-        })
-    }
-
-    /// The larger parts of a combination.
-    fn combination(&self, column: usize) -> Vec<(&'static str, f64)> {
-        let mut parts: Vec<_> = MOVABLE
-            .into_iter()
-            .zip(self.combinations.column(column).iter())
-            .map(|((key, _), part)| (key, *part))
-            .filter(|(_, part)| part.abs() > SHOWN)
-            .collect();
-        parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        // The sign of the whole is arbitrary: the largest part is shown positive.
-        let sign = parts.first().map_or(1.0, |part| part.1.signum());
-        parts.into_iter().map(|(key, part)| (key, sign * part)).collect()
     }
 }
 
@@ -90,7 +51,7 @@ impl<'a> Report<'a> {
             Filled::new(model, "xu2015", &chosen.fit.point)?,
             Filled::new(model, "unbound", &last.fit.point)?,
         ];
-        let knowledge = Knowledge::new(model.sensitivity(chosen)?, chosen.weight)?;
+        let knowledge = Knowledge::new(&model.sensitivity(chosen)?, chosen.weight)?;
         Ok(Self { model, path, knee, chosen, filled, knowledge })
     }
 

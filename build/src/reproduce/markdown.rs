@@ -3,9 +3,12 @@
 use super::claims::{HARDLY, SLIGHT, Tested};
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
 use super::tables::{COLUMNS, Cell, REASONS, Table};
-use super::verdict::{Aim, NEAR, RANKS};
-use super::{advice, interaction::Interaction};
+use super::verdict::{Aim, NEAR, RANKS, difference};
+use super::{advice, identified, interaction::Interaction};
 use crate::table::number;
+
+/// The second column of Tables 2 and 3.
+const FAR: &str = "best that implausible numbers could do";
 
 /// Text that stays as it is: nothing in it becomes emphasis, a cell or HTML.
 pub fn escape(text: &str) -> String {
@@ -98,6 +101,12 @@ pub fn render(report: &Report) -> String {
             text += &interaction_page(set.name, interaction, report);
         }
     }
+    if let Some(trade_off) = &report.trade_off {
+        text += &identified::trade_off(trade_off);
+    }
+    if let Some(fit) = &report.fit {
+        text += &identified::fit(fit);
+    }
     if report.errata.is_some() {
         text += &errata();
     }
@@ -143,24 +152,32 @@ fn summary(report: &Report) -> String {
 fn cells(of: &Table) -> String {
     let mut text = String::new();
     for column in COLUMNS {
-        let rows: Vec<[String; 5]> = of
-            .cells
-            .iter()
-            .filter(|cell| cell.column == column)
+        let cells: Vec<_> = of.cells.iter().filter(|cell| cell.column == column).collect();
+        if cells.is_empty() {
+            continue;
+        }
+        text += &format!("**{column}**\n\n");
+        let common = |cell: &Cell| {
+            let ours = cell.ours.map_or("none".into(), value);
+            let off = cell.difference.map_or(String::new(), percent);
+            [cell.row.clone(), printed(cell.paper), ours, off, cell.verdict.text()]
+        };
+        if cells.iter().all(|cell| cell.far.is_none()) {
+            let rows: Vec<_> = cells.into_iter().map(common).collect();
+            text += &table(["", "paper", "ours", "difference", "verdict"], 1, &rows);
+            continue;
+        }
+        let head = ["", "paper", "ours", "difference", FAR, "difference", "verdict"];
+        let rows: Vec<_> = cells
+            .into_iter()
             .map(|cell| {
-                [
-                    cell.row.clone(),
-                    printed(cell.paper),
-                    cell.ours.map_or("none".into(), value),
-                    cell.difference.map_or(String::new(), percent),
-                    cell.verdict.text(),
-                ]
+                let far = cell.far.map_or("none".into(), value);
+                let off = cell.far.and_then(|far| difference(cell.paper, far));
+                let [row, paper, ours, ours_off, verdict] = common(cell);
+                [row, paper, ours, ours_off, far, off.map_or(String::new(), percent), verdict]
             })
             .collect();
-        if !rows.is_empty() {
-            text += &format!("**{column}**\n\n");
-            text += &table(["", "paper", "ours", "difference", "verdict"], 1, &rows);
-        }
+        text += &table(head, 1, &rows);
     }
     if !of.unprinted.is_empty() {
         let list: Vec<_> = of

@@ -4,7 +4,9 @@ mod advice;
 mod claims;
 mod eigen;
 mod figures;
+mod fit_errors;
 mod html;
+mod identified;
 mod interaction;
 mod markdown;
 mod point;
@@ -46,6 +48,10 @@ pub enum Part {
     Claims,
     /// Slosh, beam and short period together
     Interaction,
+    /// Which numbers xu2015 moved, and what more would have cost
+    Tradeoff,
+    /// Errors of the fit behind shock_expansion
+    Fit,
     /// What is wrong in the paper
     Errata,
 }

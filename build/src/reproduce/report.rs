@@ -1,11 +1,13 @@
 //! Everything that a report says, before it has a form. As JSON it is `report.json`.
 
 use super::claims::Tested;
+use super::fit_errors::FitErrors;
 use super::interaction::Interaction;
 use super::sweep::Sweep;
 use super::tables::Table;
 use super::veering::Veering;
 use super::verdict::{RANKS, Verdict};
+use crate::identify::TradeOff;
 use serde::Serialize;
 
 pub const ERRATA: &str = include_str!("../../../src/data/errata.md");
@@ -43,6 +45,10 @@ pub struct Report {
     pub figures: Vec<Figure>,
     pub veering: Vec<Veering>,
     pub sets: Vec<SetReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trade_off: Option<TradeOff>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fit: Option<FitErrors>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub errata: Option<&'static str>,
 }

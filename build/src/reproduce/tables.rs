@@ -17,6 +17,9 @@ pub struct Cell {
     pub ours: Option<f64>,
     /// ours/paper - 1.
     pub difference: Option<f64>,
+    /// The best that implausible numbers can do: the far end of the trade-off.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub far: Option<f64>,
     #[serde(flatten)]
     pub verdict: Verdict,
 }
@@ -35,6 +38,16 @@ pub struct Table {
     pub title: &'static str,
     pub cells: Vec<Cell>,
     pub unprinted: Vec<Unprinted>,
+}
+
+impl Table {
+    /// Puts the far end of the trade-off beside our numbers.
+    pub fn beside(mut self, far: Self) -> Self {
+        for (cell, far) in self.cells.iter_mut().zip(far.cells) {
+            cell.far = far.ours;
+        }
+        self
+    }
 }
 
 const INERTIA: &str = "one inertia, small jump";
@@ -92,7 +105,8 @@ struct Builder {
 impl Builder {
     fn put(&mut self, row: String, paper: f64, ours: Option<f64>, verdict: Verdict) {
         let difference = ours.and_then(|ours| difference(paper, ours));
-        self.cells.push(Cell { row, column: self.column, paper, ours, difference, verdict });
+        let column = self.column;
+        self.cells.push(Cell { row, column, paper, ours, difference, far: None, verdict });
     }
 
     fn compare(&mut self, row: String, paper: f64, ours: Option<f64>, because: &str) {

@@ -1,7 +1,8 @@
 //! Computes what a report needs, and nothing else.
 
 use super::claims::{Evidence, test};
-use super::figures::{loci, shapes, veering as veering_figure};
+use super::figures::{loci, shapes, tradeoff, veering as veering_figure};
+use super::fit_errors::FitErrors;
 use super::interaction::Interaction;
 use super::point::Point;
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport};
@@ -11,10 +12,11 @@ use super::tables::{Table, table1, table2, table3};
 use super::veering::Veering;
 use super::{Part, claims};
 use crate::figure::{Drawing, write};
+use crate::identify::{Place, TradeOff};
 use crate::published::Published;
 use ahv::modes::Modes;
 use ahv::parameters::Parameters;
-use ahv::vehicle::{Build, Configuration, Data, structure};
+use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
 use anyhow::Result;
 use std::path::PathBuf;
 
@@ -67,28 +69,47 @@ impl<'a> Work<'a> {
             }
             self.draw(&veering_figure::Figure(&veering), veering_figure::SIZE, "veering")?;
         }
+        let trade_off = self.trade_off()?;
+        let far = trade_off.as_ref().map(|trade_off| self.far(trade_off)).transpose()?;
+        let set = |set| self.set(set, far.as_ref());
         Ok(Report {
             paper: PAPER,
             version: env!("CARGO_PKG_VERSION"),
             table1: table,
             figures,
             veering,
-            sets: sets.iter().map(|set| self.set(set)).collect::<Result<_>>()?,
+            sets: sets.iter().map(set).collect::<Result<_>>()?,
+            trade_off,
+            fit: self.wants(&[Part::Fit]).then(FitErrors::embedded).transpose()?,
             errata: self.wants(&[Part::Errata]).then_some(ERRATA),
         })
     }
 
-    fn points(&self, base: &Build) -> Result<[Point; 3]> {
-        let [rigid, even, slosh] = CONFIGURATIONS
-            .map(|configuration| Point::new(&self.data, &Build { configuration, ..*base }));
-        Ok([rigid?, even?, slosh?])
+    fn trade_off(&self) -> Result<Option<TradeOff>> {
+        if !self.wants(&[Part::Tradeoff]) {
+            return Ok(None);
+        }
+        println!("xu2015: trade-off between misfit and distance, there and back");
+        let trade_off = TradeOff::new(&|place| {
+            let Place { weight, distance, misfit } = place;
+            println!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
+        })?;
+        self.draw(&tradeoff::Figure(&trade_off), tradeoff::SIZE, "tradeoff")?;
+        Ok(Some(trade_off))
+    }
+
+    /// The vehicle with the numbers of the far end.
+    fn far(&self, trade_off: &TradeOff) -> Result<[Point; 3]> {
+        let data = Data { xu2015: trade_off.far.clone(), ..self.data.clone() };
+        points(&data, &Build { aero: AeroSet::Xu2015, ..self.base })
     }
 
     fn table1(&self) -> Result<Table> {
-        Ok(table1(&self.published.table1, &self.points(&self.base)?))
+        Ok(table1(&self.published.table1, &points(&self.data, &self.base)?))
     }
 
-    fn set(&self, set: &Set) -> Result<SetReport> {
+    fn set(&self, set: &Set, far: Option<&[Point; 3]>) -> Result<SetReport> {
+        let far = far.filter(|_| set.aero == AeroSet::Xu2015);
         let base = Build { aero: set.aero, ..self.base };
         let mut report = SetReport {
             name: set.name,
@@ -102,14 +123,16 @@ impl<'a> Work<'a> {
         let mut points = None;
         if self.wants(&[Part::Table2, Part::Table3, Part::Interaction]) {
             println!("{}: tables 2 and 3", set.name);
-            points = Some(self.points(&base)?);
+            points = Some(self::points(&self.data, &base)?);
         }
         if let Some(points) = &points {
             if self.wants(&[Part::Table2]) {
-                report.tables.push(table2(&self.published.table2, points));
+                let of = |points: &[Point; 3]| table2(&self.published.table2, points);
+                report.tables.push(beside(of(points), far.map(of)));
             }
             if self.wants(&[Part::Table3]) {
-                report.tables.push(table3(&self.published.table3, points));
+                let of = |points: &[Point; 3]| table3(&self.published.table3, points);
+                report.tables.push(beside(of(points), far.map(of)));
             }
         }
         for (parameter, part, file, title) in SWEEPS {
@@ -185,6 +208,19 @@ impl<'a> Work<'a> {
                       stands still in space while the beam moves past it."
                 .into(),
         })
+    }
+}
+
+fn points(data: &Data, base: &Build) -> Result<[Point; 3]> {
+    let [rigid, even, slosh] =
+        CONFIGURATIONS.map(|configuration| Point::new(data, &Build { configuration, ..*base }));
+    Ok([rigid?, even?, slosh?])
+}
+
+fn beside(table: Table, far: Option<Table>) -> Table {
+    match far {
+        Some(far) => table.beside(far),
+        None => table,
     }
 }
 

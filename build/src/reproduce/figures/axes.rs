@@ -1,6 +1,7 @@
 //! A pair of axes, and what is drawn between them in pixels.
 
 use crate::figure::{Area, Drawn, FONT, FRAME, GRID, decimals, label};
+use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -18,6 +19,14 @@ pub struct Axes<'a> {
     pub names: [&'a str; 2],
     pub x: [f64; 2],
     pub y: [f64; 2],
+}
+
+/// What a length on the axes means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    Linear,
+    /// Both axes; the plot then takes decimal logarithms.
+    Logarithmic,
 }
 
 /// The space between the axes.
@@ -52,39 +61,84 @@ impl Axes<'_> {
     where
         B::ErrorType: 'static,
     {
+        self.draw_scaled(area, scale, Scale::Linear)
+    }
+
+    /// The same on linear or logarithmic axes.
+    pub fn draw_scaled<B: DrawingBackend>(
+        &self,
+        area: &Area<B>,
+        scale: u32,
+        kind: Scale,
+    ) -> Result<Plot<B>, DrawingAreaErrorKind<B::ErrorType>>
+    where
+        B::ErrorType: 'static,
+    {
         let (head, body) = area.split_vertically(HEAD * scale);
         let left = text(scale).pos(Pos::new(HPos::Left, VPos::Center));
         let middle = (HEAD * scale / 2) as i32 + 2 * scale as i32;
         head.draw_text(self.title, &left, ((LEFT * scale) as i32, middle))?;
         let [[x0, x1], [y0, y1]] = [self.x, self.y];
-        let mut chart = ChartBuilder::on(&body)
+        let mut chart = ChartBuilder::on(&body);
+        chart
             .margin_right(RIGHT * scale)
             .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
-            .set_label_area_size(LabelAreaPosition::Bottom, BOTTOM * scale)
-            .build_cartesian_2d(x0..x1, y0..y1)?;
-        let [x_decimals, y_decimals] = [x1 - x0, y1 - y0].map(|width| decimals(width, LABELS));
+            .set_label_area_size(LabelAreaPosition::Bottom, BOTTOM * scale);
+        let (area, x, y) = match kind {
+            Scale::Linear => {
+                let mut chart = chart.build_cartesian_2d(x0..x1, y0..y1)?;
+                let [x, y] = [x1 - x0, y1 - y0].map(|width| decimals(width, LABELS));
+                let words = |decimals: usize| {
+                    move |value: &f64| label(*value, decimals).replace('-', "\u{2212}")
+                };
+                self.mesh(&mut chart, scale, &words(x), &words(y), LABELS)?;
+                (chart.plotting_area().strip_coord_spec(), self.x, self.y)
+            }
+            Scale::Logarithmic => {
+                let [x, y] = [(x0..x1).log_scale(), (y0..y1).log_scale()];
+                let mut chart = chart.build_cartesian_2d(x, y)?;
+                let words = |value: &f64| format!("{}", (value * 1e9).round() / 1e9);
+                self.mesh(&mut chart, scale, &words, &words, 2 * LABELS)?;
+                let area = chart.plotting_area().strip_coord_spec();
+                (area, self.x.map(f64::log10), self.y.map(f64::log10))
+            }
+        };
+        let plot = Plot { area, scale, x, y };
+        let (w, h) = plot.size();
+        let frame = vec![(0, 0), (w, 0), (w, h), (0, h), (0, 0)];
+        plot.area.draw(&PathElement::new(frame, FRAME.stroke_width(scale)))?;
+        Ok(plot)
+    }
+
+    fn mesh<B: DrawingBackend, X, Y>(
+        &self,
+        chart: &mut ChartContext<B, Cartesian2d<X, Y>>,
+        scale: u32,
+        x_words: &dyn Fn(&f64) -> String,
+        y_words: &dyn Fn(&f64) -> String,
+        y_labels: usize,
+    ) -> Drawn<B>
+    where
+        B::ErrorType: 'static,
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
+        Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
+    {
         let small = (FONT, (TEXT - 1) * scale).into_font().color(&BLACK);
         chart
             .configure_mesh()
             .x_labels(LABELS)
-            .y_labels(LABELS)
+            .y_labels(y_labels)
             .max_light_lines(0)
             .bold_line_style(GRID.stroke_width(scale))
             .axis_style(FRAME.stroke_width(scale))
             .set_all_tick_mark_size(4 * scale)
             .label_style(small.clone())
             .axis_desc_style(small)
-            .x_label_formatter(&|value| label(*value, x_decimals).replace('-', "\u{2212}"))
-            .y_label_formatter(&|value| label(*value, y_decimals).replace('-', "\u{2212}"))
+            .x_label_formatter(&x_words)
+            .y_label_formatter(&y_words)
             .x_desc(self.names[0])
             .y_desc(self.names[1])
-            .draw()?;
-        let plot =
-            Plot { area: chart.plotting_area().strip_coord_spec(), scale, x: self.x, y: self.y };
-        let (w, h) = plot.size();
-        let frame = vec![(0, 0), (w, 0), (w, h), (0, h), (0, 0)];
-        plot.area.draw(&PathElement::new(frame, FRAME.stroke_width(scale)))?;
-        Ok(plot)
+            .draw()
     }
 }
 

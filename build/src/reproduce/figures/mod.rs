@@ -4,4 +4,5 @@ mod axes;
 pub mod loci;
 mod marker;
 pub mod shapes;
+pub mod tradeoff;
 pub mod veering;

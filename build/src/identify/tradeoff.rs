@@ -1,0 +1,106 @@
+//! The trade-off of `xu2015` as a report shows it.
+
+use super::knowledge::Knowledge;
+use super::numbers::{MOVABLE, ratios};
+use super::path::{Model, Point};
+use ahv::params::AeroData;
+use anyhow::{Result, anyhow};
+use nalgebra::DMatrix;
+use serde::Serialize;
+
+/// One compromise between the tables and the published numbers.
+#[derive(Debug, Clone, Serialize)]
+pub struct Place {
+    /// Of the distance, against the misfit.
+    pub weight: f64,
+    /// Sum over the numbers of (ln ratio / doubt)^2.
+    pub distance: f64,
+    /// Sum over the cells of (relative error / wanted accuracy)^2.
+    pub misfit: f64,
+}
+
+/// One number of the coefficient set.
+#[derive(Debug, Clone, Serialize)]
+pub struct Moved {
+    pub key: &'static str,
+    pub published: f64,
+    pub identified: f64,
+    pub factor: f64,
+    /// The factor that costs 1.
+    pub doubt_factor: f64,
+    /// Formal standard error, as a factor.
+    pub error_factor: f64,
+    /// Part that the data decide; the norm decides the rest.
+    pub decided_by_data: f64,
+    /// The printed number that answers most, of those with a wanted accuracy.
+    pub strongest: String,
+    /// Its relative change over that of the number.
+    pub slope: f64,
+    /// At the far end of the trade-off.
+    pub far_factor: f64,
+}
+
+/// All of it.
+#[derive(Debug, Clone, Serialize)]
+pub struct TradeOff {
+    pub places: Vec<Place>,
+    /// Which place is the knee.
+    pub knee: usize,
+    /// The knee with small moves put back: what is committed.
+    pub chosen: Place,
+    pub numbers: Vec<Moved>,
+    /// The set at the far end: the best that implausible numbers can do.
+    #[serde(skip)]
+    pub far: AeroData,
+}
+
+fn place(point: &Point) -> Place {
+    Place { weight: point.weight, distance: point.distance(), misfit: point.misfit() }
+}
+
+impl TradeOff {
+    /// Follows the trade-off from end to end; `tell` hears of every place on the way.
+    pub fn new(tell: &dyn Fn(&Place)) -> Result<Self> {
+        let model = Model::new()?;
+        let (path, knee) = model.path(&|point| tell(&place(point)))?;
+        let chosen = model.sparse(&path[knee])?;
+        let last = path.last().ok_or_else(|| anyhow!("an empty path"))?;
+        let sensitivity = model.sensitivity(&chosen)?;
+        let knowledge = Knowledge::new(&sensitivity, chosen.weight)?;
+        let far = model.origin.moved(&last.fit.point).ok_or_else(|| anyhow!("no such set"))?;
+        let far_factors = ratios(&last.fit.point);
+        let values = model.origin.values(&chosen.fit.point);
+        let number = |(i, ((key, doubt), [published, identified])): (usize, (_, [f64; 2]))| {
+            let (strongest, slope) = strongest(&model, &sensitivity, i);
+            Moved {
+                key,
+                published,
+                identified,
+                factor: identified / published,
+                doubt_factor: f64::exp(doubt),
+                error_factor: f64::exp(doubt * knowledge.errors[i]),
+                decided_by_data: knowledge.resolution[i],
+                strongest,
+                slope: slope / doubt,
+                far_factor: far_factors[i],
+            }
+        };
+        Ok(Self {
+            places: path.iter().map(place).collect(),
+            knee,
+            chosen: place(&chosen),
+            numbers: MOVABLE.into_iter().zip(values).enumerate().map(number).collect(),
+            far,
+        })
+    }
+}
+
+/// The cell that answers a number most, and the relative change of it per unit of the coordinate.
+fn strongest(model: &Model, sensitivity: &DMatrix<f64>, number: usize) -> (String, f64) {
+    let wanted = model.cells.iter().filter_map(|cell| Some((cell, cell.wanted?)));
+    let slopes = wanted.enumerate().map(|(row, (cell, wanted))| {
+        let what = format!("{} ({:?})", cell.name, cell.column);
+        (what, sensitivity[(row, number)] * wanted)
+    });
+    slopes.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap_or_default()
+}
