@@ -14,7 +14,7 @@ pub const RIGID: usize = 5;
 /// Rigid states, then (eta, eta-dot) of the flexible modes, then of the slosh modes.
 pub const STATES: usize = RIGID + 2 * MODES;
 /// delta_e, phi.
-pub const INPUTS: usize = 2;
+pub const CONTROLS: usize = 2;
 /// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
     [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
@@ -22,7 +22,7 @@ pub const NOMINAL: [f64; STATES] =
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];
 /// Effective elevator deflection (rad) and fuel equivalence ratio.
-pub type Control<S = f64> = [S; INPUTS];
+pub type Control<S = f64> = [S; CONTROLS];
 
 /// The vehicle in one configuration at one fuel level, ready to fly. Per metre of width.
 #[derive(Debug, Clone)]
@@ -52,6 +52,14 @@ pub struct Vehicle {
     pub slosh: [[f64; MODES]; SLOSH],
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
+}
+
+/// The vehicle as air in vertical motion meets it.
+struct Stream<S> {
+    /// The state with the speed through the air for V and the incidence to it for alpha.
+    state: State<S>,
+    /// Sine and cosine of the angle by which the stream comes from below the flight path.
+    turn: (S, S),
 }
 
 /// Forces on the vehicle, per metre of width.
@@ -119,7 +127,29 @@ impl Vehicle {
         RIGID + 2 * self.modes
     }
 
-    /// Eq. (4).
+    /// The state as air rising at `gust` (m/s) meets it: still air leaves it bit for bit as it is.
+    #[inline]
+    fn stream<S: Scalar>(x: &State<S>, gust: S) -> Stream<S> {
+        let (zero, one) = (S::constant(0.0), S::constant(1.0));
+        if gust.is_zero() {
+            return Stream { state: *x, turn: (zero, one) };
+        }
+        let (sin_gamma, cos_gamma) = x[2].sin_cos();
+        let (along, across) = (x[0] - gust * sin_gamma, gust * cos_gamma);
+        let speed = (along * along + across * across).sqrt();
+        let mut state = *x;
+        state[0] = speed;
+        state[3] = x[3] + (across / along).atan();
+        Stream { state, turn: (across / speed, along / speed) }
+    }
+
+    /// The state as air rising at `gust` (m/s) meets it: speed through the air for V, incidence to
+    /// it for alpha.
+    pub fn as_met(x: &State, gust: f64) -> State {
+        Self::stream(x, gust).state
+    }
+
+    /// Eq. (4), of a state in still air or as moving air meets it.
     #[inline]
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
         let (speed, altitude, alpha) = (x[0], x[1], x[3]);
@@ -169,21 +199,28 @@ impl Vehicle {
         eta + rate * per_speed
     }
 
-    /// Eq. (3): time derivatives of all states.
-    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> State<S> {
+    /// Eq. (3): time derivatives of all states, in air that rises at `gust`, m/s.
+    ///
+    /// Beyond eq. (3), which knows still air only: lift and drag are those of the speed and the
+    /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
+    /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
+    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
         let [speed, altitude, gamma, alpha, q, ..] = *x;
-        let loads = self.loads(x, u);
+        let Stream { state: met, turn: (sin_turn, cos_turn) } = Self::stream(x, gust);
+        let loads = self.loads(&met, u);
         let (gravity, distance) = self.atmosphere.gravity(altitude);
         let (sin_alpha, cos_alpha) = alpha.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
         let per_mass = 1.0 / self.mass;
 
-        let gamma_dot = (loads.lift + loads.thrust * sin_alpha) * per_speed * per_mass
+        let lift = loads.lift * cos_turn + loads.drag * sin_turn;
+        let drag = loads.drag * cos_turn - loads.lift * sin_turn;
+        let gamma_dot = (lift + loads.thrust * sin_alpha) * per_speed * per_mass
             - (gravity * per_speed - speed / distance) * cos_gamma;
 
         let mut rates = [S::constant(0.0); STATES];
-        rates[0] = (loads.thrust * cos_alpha - loads.drag) * per_mass - gravity * sin_gamma;
+        rates[0] = (loads.thrust * cos_alpha - drag) * per_mass - gravity * sin_gamma;
         rates[1] = speed * sin_gamma;
         rates[2] = gamma_dot;
         rates[3] = q - gamma_dot;
@@ -191,21 +228,23 @@ impl Vehicle {
 
         let force = loads.qbar * self.aero.area;
         let elevator = self.aero.lift.elevator(u[0]);
-        let plume = u[1] * self.aero.lift_phi.body(alpha);
+        let (incidence, per_airspeed) = (met[3], S::constant(1.0) / met[0]);
+        let sin_incidence = sin_alpha * cos_turn + cos_alpha * sin_turn;
+        let plume = u[1] * self.aero.lift_phi.body(incidence);
         for i in 0..self.modes {
             let n = &self.elastic.force[i];
             let [n_0, n_alpha, n_alpha2] = n.alpha;
-            let generalised = (alpha * n_alpha2 + n_alpha) * alpha
+            let generalised = (incidence * n_alpha2 + n_alpha) * incidence
                 + n_0
                 + elevator * n.delta_e
                 + plume * n.plume
-                + q * per_speed * n.pitch_rate
-                + self.elastic_sum(&n.elastic, x, per_speed);
+                + q * per_airspeed * n.pitch_rate
+                + self.elastic_sum(&n.elastic, x, per_airspeed);
             let mut damping = S::constant(0.0);
             for k in 0..self.modes {
                 damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
             }
-            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
+            let engine = loads.thrust * (sin_incidence * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
             rates[eta_dot] = force * generalised + engine + self.floor[i]
@@ -215,9 +254,9 @@ impl Vehicle {
         rates
     }
 
-    /// Everything that is shown beside the states.
-    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Outputs<S> {
-        let loads = self.loads(x, u);
+    /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
+    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
+        let loads = self.loads(&Self::stream(x, gust).state, u);
         let slosh = std::array::from_fn(|tank| {
             (0..self.modes)
                 .fold(S::constant(0.0), |sum, i| sum + x[RIGID + 2 * i] * self.slosh[tank][i])

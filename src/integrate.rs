@@ -6,8 +6,8 @@ pub trait System<const N: usize> {
     fn states(&self) -> usize;
     /// f(t, x).
     fn derivatives(&self, t: f64, x: &[f64; N]) -> [f64; N];
-    /// Whether the model still holds at x; an accepted step never ends where it does not.
-    fn holds(&self, x: &[f64; N]) -> bool;
+    /// Whether the model still holds at t and x; an accepted step never ends where it does not.
+    fn holds(&self, t: f64, x: &[f64; N]) -> bool;
     /// Typical size of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
 }
@@ -115,7 +115,7 @@ impl Integrator {
                 self.proposal = wanted;
                 continue;
             }
-            if !system.holds(&next) {
+            if !system.holds(t + h, &next) {
                 // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
                 invalid = target.min(t + h);
                 continue;

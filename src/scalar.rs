@@ -30,6 +30,10 @@ pub trait Scalar:
     fn powf(self, exponent: f64) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
+    /// Arc tangent.
+    fn atan(self) -> Self;
+    /// Whether it is zero in every way, so that nothing that it drives need be computed.
+    fn is_zero(self) -> bool;
 }
 
 impl Scalar for f64 {
@@ -56,6 +60,14 @@ impl Scalar for f64 {
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrt(self)
+    }
+    #[inline]
+    fn atan(self) -> Self {
+        libm::atan(self)
+    }
+    #[inline]
+    fn is_zero(self) -> bool {
+        self == 0.0
     }
 }
 
@@ -167,5 +179,11 @@ impl<const N: usize> Scalar for Dual<N> {
     fn sqrt(self) -> Self {
         let value = libm::sqrt(self.re);
         self.chain(value, 0.5 / value)
+    }
+    fn atan(self) -> Self {
+        self.chain(libm::atan(self.re), 1.0 / (1.0 + self.re * self.re))
+    }
+    fn is_zero(self) -> bool {
+        self.re == 0.0 && self.eps.iter().all(|&slope| slope == 0.0)
     }
 }

@@ -1,10 +1,10 @@
 //! Trim: the controls and static deflections of steady flight.
 
 use crate::atmosphere::Atmosphere;
-use crate::dynamics::{Control, INPUTS, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{CONTROLS, Control, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::modes::MODES;
-use crate::scalar::Dual;
+use crate::scalar::{Dual, Scalar};
 use nalgebra::{SMatrix, SVector};
 
 /// Flight condition to be held.
@@ -68,9 +68,9 @@ fn residual(
 ) -> (Vector, SMatrix<f64, UNKNOWNS, UNKNOWNS>) {
     let variables: [Dual<UNKNOWNS>; UNKNOWNS] = std::array::from_fn(|i| Dual::variable(z[i], i));
     let mut x = start.map(|value| Dual { re: value, eps: [0.0; UNKNOWNS] });
-    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; INPUTS];
+    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; CONTROLS];
     insert(&mut x, &mut u, &variables);
-    let rates = vehicle.derivatives(&x, &u);
+    let rates = vehicle.derivatives(&x, &u, Dual::constant(0.0));
 
     let mut value = Vector::zeros();
     let mut jacobian = SMatrix::identity();

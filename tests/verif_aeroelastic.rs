@@ -107,7 +107,7 @@ fn verif_liquid_at_rest_lies_on_the_floor() {
         let build = ahv::vehicle::Build { fuel_fraction, ..build(Configuration::SloshBeam) };
         let vehicle = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
         let trim = ahv::trim::trim(&vehicle, &build.condition).unwrap();
-        let slosh = vehicle.outputs(&trim.state, &trim.control).slosh;
+        let slosh = vehicle.outputs(&trim.state, &trim.control, 0.0).slosh;
         assert!(slosh.iter().all(|s| s.abs() < 2e-3), "fuel {fuel_fraction}: {slosh:?} m");
     }
 }

@@ -26,7 +26,7 @@ impl System<2> for Oscillator {
         self.calls.set(self.calls.get() + 1);
         [x[1], -self.omega * self.omega * x[0]]
     }
-    fn holds(&self, x: &[f64; 2]) -> bool {
+    fn holds(&self, _: f64, x: &[f64; 2]) -> bool {
         x[0] >= self.floor
     }
     fn nominal(&self) -> &[f64; 2] {
@@ -48,7 +48,7 @@ impl System<1> for Clock {
     fn derivatives(&self, t: f64, _: &[f64; 1]) -> [f64; 1] {
         [t.cos()]
     }
-    fn holds(&self, _: &[f64; 1]) -> bool {
+    fn holds(&self, _: f64, _: &[f64; 1]) -> bool {
         true
     }
     fn nominal(&self) -> &[f64; 1] {
@@ -155,7 +155,7 @@ fn verif_an_infinite_right_hand_side_is_reported() {
         fn derivatives(&self, t: f64, _: &[f64; 1]) -> [f64; 1] {
             [if t > 0.25 { f64::NAN } else { 1.0 }]
         }
-        fn holds(&self, _: &[f64; 1]) -> bool {
+        fn holds(&self, _: f64, _: &[f64; 1]) -> bool {
             true
         }
         fn nominal(&self) -> &[f64; 1] {
