@@ -18,6 +18,7 @@ mod package;
 mod panels;
 mod plot;
 mod poles;
+mod python;
 mod raster;
 mod record;
 mod reproduce;
