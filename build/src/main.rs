@@ -19,6 +19,7 @@ mod package;
 mod panels;
 mod plot;
 mod poles;
+mod python;
 mod raster;
 mod record;
 mod reproduce;
