@@ -120,8 +120,13 @@ impl Vehicle {
     }
 
     /// Eq. (4).
-    #[inline]
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
+        self.loads_on(x[3].sin_cos(), x, u)
+    }
+
+    /// Eq. (4), with the sine and cosine of the incidence.
+    #[inline]
+    fn loads_on<S: Scalar>(&self, (sin, cos): (S, S), x: &State<S>, u: &Control<S>) -> Loads<S> {
         let (speed, altitude, alpha) = (x[0], x[1], x[3]);
         let (delta_e, phi) = (u[0], u[1]);
         let air = self.atmosphere.air(altitude);
@@ -142,7 +147,6 @@ impl Vehicle {
         let inflow = alpha + elastic(&self.elastic.inflow);
         let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
 
-        let (sin, cos) = alpha.sin_cos();
         let c_n = c_l * cos + c_d * sin;
         let shift = self.mass_centre - self.aero.moment_centre;
         let thrust = force * c_t;
@@ -160,21 +164,43 @@ impl Vehicle {
     /// Sum of an elastic term over the modal coordinates and their rates.
     #[inline]
     fn elastic_sum<S: Scalar>(&self, term: &ElasticTerm, x: &State<S>, per_speed: S) -> S {
-        let mut eta = S::constant(0.0);
-        let mut rate = S::constant(0.0);
-        for i in 0..self.modes {
-            eta = eta + x[RIGID + 2 * i] * term.eta[i];
-            rate = rate + x[RIGID + 2 * i + 1] * term.rate[i];
+        let mut sums = [S::constant(0.0); 2];
+        for (i, per) in term.per.iter().enumerate() {
+            for part in 0..2 {
+                sums[part] = sums[part] + x[RIGID + 2 * i + part] * per[part];
+            }
         }
-        eta + rate * per_speed
+        sums[0] + sums[1] * per_speed
     }
 
     /// Eq. (3): time derivatives of all states.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> State<S> {
+        let axis = x[3].sin_cos();
+        self.rates(axis, &self.loads_on(axis, x, u), x, u)
+    }
+
+    /// Everything that is shown beside the states.
+    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Outputs<S> {
+        self.shown(self.loads(x, u), x)
+    }
+
+    /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
+    pub fn both<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> (State<S>, Outputs<S>) {
+        let axis = x[3].sin_cos();
+        let loads = self.loads_on(axis, x, u);
+        (self.rates(axis, &loads, x, u), self.shown(loads, x))
+    }
+
+    /// Eq. (3) under known loads, with the sine and cosine of the incidence.
+    fn rates<S: Scalar>(
+        &self,
+        (sin_alpha, cos_alpha): (S, S),
+        loads: &Loads<S>,
+        x: &State<S>,
+        u: &Control<S>,
+    ) -> State<S> {
         let [speed, altitude, gamma, alpha, q, ..] = *x;
-        let loads = self.loads(x, u);
         let (gravity, distance) = self.atmosphere.gravity(altitude);
-        let (sin_alpha, cos_alpha) = alpha.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
         let per_mass = 1.0 / self.mass;
@@ -192,8 +218,7 @@ impl Vehicle {
         let force = loads.qbar * self.aero.area;
         let elevator = self.aero.lift.elevator(u[0]);
         let plume = u[1] * self.aero.lift_phi.body(alpha);
-        for i in 0..self.modes {
-            let n = &self.elastic.force[i];
+        for (i, n) in self.elastic.force.iter().enumerate() {
             let [n_0, n_alpha, n_alpha2] = n.alpha;
             let generalised = (alpha * n_alpha2 + n_alpha) * alpha
                 + n_0
@@ -202,8 +227,8 @@ impl Vehicle {
                 + q * per_speed * n.pitch_rate
                 + self.elastic_sum(&n.elastic, x, per_speed);
             let mut damping = S::constant(0.0);
-            for k in 0..self.modes {
-                damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
+            for (k, per_second) in self.damping[i].iter().enumerate() {
+                damping = damping + x[RIGID + 2 * k + 1] * *per_second;
             }
             let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
@@ -212,15 +237,14 @@ impl Vehicle {
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }
+        rates[self.states()..].fill(S::constant(0.0));
         rates
     }
 
-    /// Everything that is shown beside the states.
-    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Outputs<S> {
-        let loads = self.loads(x, u);
+    fn shown<S: Scalar>(&self, loads: Loads<S>, x: &State<S>) -> Outputs<S> {
         let slosh = std::array::from_fn(|tank| {
-            (0..self.modes)
-                .fold(S::constant(0.0), |sum, i| sum + x[RIGID + 2 * i] * self.slosh[tank][i])
+            let parts = self.slosh[tank].iter().enumerate();
+            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
         });
         let weight = self.mass * self.atmosphere.sea_level_gravity();
         Outputs { loads, theta: x[2] + x[3], slosh, n_z: loads.normal * (1.0 / weight) }

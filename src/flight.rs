@@ -79,9 +79,6 @@ fn in_effect(vehicle: &Vehicle, base: &Control, inputs: &Control) -> Control {
 }
 
 impl System<STATES> for Steered<'_> {
-    fn states(&self) -> usize {
-        self.vehicle.states()
-    }
     fn derivatives(&self, t: f64, x: &State) -> State {
         self.vehicle.derivatives(x, &self.control(t))
     }
@@ -266,11 +263,10 @@ impl Flight {
         self.initialise()?;
         if let (None, Some(ready)) = (&self.sample, &self.ready) {
             let control = self.control(ready);
-            let derivatives = match self.slope {
-                Some(slope) => slope,
-                None => ready.vehicle.derivatives(&self.state, &control),
+            let (derivatives, outputs) = match self.slope {
+                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control)),
+                None => ready.vehicle.both(&self.state, &control),
             };
-            let outputs = ready.vehicle.outputs(&self.state, &control);
             self.slope = Some(derivatives);
             self.sample = Some(Sample { outputs, derivatives, control });
         }
