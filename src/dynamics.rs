@@ -58,6 +58,10 @@ pub struct Vehicle {
 struct Stream<S> {
     /// The state with the speed through the air for V and the incidence to it for alpha.
     state: State<S>,
+    /// Sine and cosine of the angle of attack, of the body against the flight path.
+    body: (S, S),
+    /// Sine and cosine of the incidence, of the body against the stream.
+    axis: (S, S),
     /// Sine and cosine of the angle by which the stream comes from below the flight path.
     turn: (S, S),
 }
@@ -127,12 +131,13 @@ impl Vehicle {
         RIGID + 2 * self.modes
     }
 
-    /// The state as air rising at `gust` (m/s) meets it: still air leaves it bit for bit as it is.
+    /// What air that rises at `gust` (m/s) makes of the state.
     #[inline]
     fn stream<S: Scalar>(x: &State<S>, gust: S) -> Stream<S> {
         let (zero, one) = (S::constant(0.0), S::constant(1.0));
+        let body = x[3].sin_cos();
         if gust.is_zero() {
-            return Stream { state: *x, turn: (zero, one) };
+            return Stream { state: *x, body, axis: body, turn: (zero, one) };
         }
         let (sin_gamma, cos_gamma) = x[2].sin_cos();
         let (along, across) = (x[0] - gust * sin_gamma, gust * cos_gamma);
@@ -140,18 +145,25 @@ impl Vehicle {
         let mut state = *x;
         state[0] = speed;
         state[3] = x[3] + (across / along).atan();
-        Stream { state, turn: (across / speed, along / speed) }
+        let (sin, cos) = (across / speed, along / speed);
+        let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
+        Stream { state, body, axis, turn: (sin, cos) }
     }
 
     /// The state as air rising at `gust` (m/s) meets it: speed through the air for V, incidence to
-    /// it for alpha.
+    /// it for alpha. Still air leaves it bit for bit as it is.
     pub fn as_met(x: &State, gust: f64) -> State {
         Self::stream(x, gust).state
     }
 
-    /// Eq. (4), of a state in still air or as moving air meets it.
-    #[inline]
+    /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
+        self.loads_on(x[3].sin_cos(), x, u)
+    }
+
+    /// Eq. (4), with the sine and cosine of the incidence.
+    #[inline]
+    fn loads_on<S: Scalar>(&self, (sin, cos): (S, S), x: &State<S>, u: &Control<S>) -> Loads<S> {
         let (speed, altitude, alpha) = (x[0], x[1], x[3]);
         let (delta_e, phi) = (u[0], u[1]);
         let air = self.atmosphere.air(altitude);
@@ -172,7 +184,6 @@ impl Vehicle {
         let inflow = alpha + elastic(&self.elastic.inflow);
         let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
 
-        let (sin, cos) = alpha.sin_cos();
         let c_n = c_l * cos + c_d * sin;
         let shift = self.mass_centre - self.aero.moment_centre;
         let thrust = force * c_t;
@@ -190,13 +201,13 @@ impl Vehicle {
     /// Sum of an elastic term over the modal coordinates and their rates.
     #[inline]
     fn elastic_sum<S: Scalar>(&self, term: &ElasticTerm, x: &State<S>, per_speed: S) -> S {
-        let mut eta = S::constant(0.0);
-        let mut rate = S::constant(0.0);
-        for i in 0..self.modes {
-            eta = eta + x[RIGID + 2 * i] * term.eta[i];
-            rate = rate + x[RIGID + 2 * i + 1] * term.rate[i];
+        let mut sums = [S::constant(0.0); 2];
+        for (i, per) in term.per.iter().enumerate() {
+            for part in 0..2 {
+                sums[part] = sums[part] + x[RIGID + 2 * i + part] * per[part];
+            }
         }
-        eta + rate * per_speed
+        sums[0] + sums[1] * per_speed
     }
 
     /// Eq. (3): time derivatives of all states, in air that rises at `gust`, m/s.
@@ -205,11 +216,35 @@ impl Vehicle {
     /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
     /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
-        let [speed, altitude, gamma, alpha, q, ..] = *x;
-        let Stream { state: met, turn: (sin_turn, cos_turn) } = Self::stream(x, gust);
-        let loads = self.loads(&met, u);
+        let stream = Self::stream(x, gust);
+        self.rates(&stream, &self.loads_on(stream.axis, &stream.state, u), x, u)
+    }
+
+    /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
+    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
+        let stream = Self::stream(x, gust);
+        self.shown(self.loads_on(stream.axis, &stream.state, u), x)
+    }
+
+    /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
+    pub fn both<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> (State<S>, Outputs<S>) {
+        let stream = Self::stream(x, gust);
+        let loads = self.loads_on(stream.axis, &stream.state, u);
+        (self.rates(&stream, &loads, x, u), self.shown(loads, x))
+    }
+
+    /// Eq. (3) under known loads.
+    fn rates<S: Scalar>(
+        &self,
+        stream: &Stream<S>,
+        loads: &Loads<S>,
+        x: &State<S>,
+        u: &Control<S>,
+    ) -> State<S> {
+        let [speed, altitude, gamma, _, q, ..] = *x;
+        let (sin_alpha, cos_alpha) = stream.body;
+        let (sin_turn, cos_turn) = stream.turn;
         let (gravity, distance) = self.atmosphere.gravity(altitude);
-        let (sin_alpha, cos_alpha) = alpha.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
         let per_mass = 1.0 / self.mass;
@@ -228,11 +263,10 @@ impl Vehicle {
 
         let force = loads.qbar * self.aero.area;
         let elevator = self.aero.lift.elevator(u[0]);
-        let (incidence, per_airspeed) = (met[3], S::constant(1.0) / met[0]);
-        let sin_incidence = sin_alpha * cos_turn + cos_alpha * sin_turn;
+        let (incidence, (sin_incidence, _)) = (stream.state[3], stream.axis);
+        let per_airspeed = S::constant(1.0) / stream.state[0];
         let plume = u[1] * self.aero.lift_phi.body(incidence);
-        for i in 0..self.modes {
-            let n = &self.elastic.force[i];
+        for (i, n) in self.elastic.force.iter().enumerate() {
             let [n_0, n_alpha, n_alpha2] = n.alpha;
             let generalised = (incidence * n_alpha2 + n_alpha) * incidence
                 + n_0
@@ -241,8 +275,8 @@ impl Vehicle {
                 + q * per_airspeed * n.pitch_rate
                 + self.elastic_sum(&n.elastic, x, per_airspeed);
             let mut damping = S::constant(0.0);
-            for k in 0..self.modes {
-                damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
+            for (k, per_second) in self.damping[i].iter().enumerate() {
+                damping = damping + x[RIGID + 2 * k + 1] * *per_second;
             }
             let engine = loads.thrust * (sin_incidence * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
@@ -251,15 +285,14 @@ impl Vehicle {
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }
+        rates[self.states()..].fill(S::constant(0.0));
         rates
     }
 
-    /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
-    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
-        let loads = self.loads(&Self::stream(x, gust).state, u);
+    fn shown<S: Scalar>(&self, loads: Loads<S>, x: &State<S>) -> Outputs<S> {
         let slosh = std::array::from_fn(|tank| {
-            (0..self.modes)
-                .fold(S::constant(0.0), |sum, i| sum + x[RIGID + 2 * i] * self.slosh[tank][i])
+            let parts = self.slosh[tank].iter().enumerate();
+            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
         });
         let weight = self.mass * self.atmosphere.sea_level_gravity();
         Outputs { loads, theta: x[2] + x[3], slosh, n_z: loads.normal * (1.0 / weight) }

@@ -234,11 +234,10 @@ impl Flight {
         self.initialise()?;
         if let (None, Some(ready)) = (&self.sample, &self.ready) {
             let (control, gust) = self.control(ready);
-            let derivatives = match self.slope {
-                Some(slope) => slope,
-                None => ready.vehicle.derivatives(&self.state, &control, gust),
+            let (derivatives, outputs) = match self.slope {
+                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust)),
+                None => ready.vehicle.both(&self.state, &control, gust),
             };
-            let outputs = ready.vehicle.outputs(&self.state, &control, gust);
             self.slope = Some(derivatives);
             self.sample = Some(Sample { outputs, derivatives, control });
         }

@@ -26,8 +26,8 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
     /// Exponential function.
     fn exp(self) -> Self;
-    /// Power with a constant exponent, for a positive base.
-    fn powf(self, exponent: f64) -> Self;
+    /// Natural logarithm of a positive number.
+    fn ln(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Arc tangent.
@@ -54,8 +54,8 @@ impl Scalar for f64 {
         libm::exp(self)
     }
     #[inline]
-    fn powf(self, exponent: f64) -> Self {
-        libm::pow(self, exponent)
+    fn ln(self) -> Self {
+        libm::log(self)
     }
     #[inline]
     fn sqrt(self) -> Self {
@@ -172,9 +172,8 @@ impl<const N: usize> Scalar for Dual<N> {
         let value = libm::exp(self.re);
         self.chain(value, value)
     }
-    fn powf(self, exponent: f64) -> Self {
-        let value = libm::pow(self.re, exponent);
-        self.chain(value, exponent * value / self.re)
+    fn ln(self) -> Self {
+        self.chain(libm::log(self.re), 1.0 / self.re)
     }
     fn sqrt(self) -> Self {
         let value = libm::sqrt(self.re);

@@ -42,7 +42,7 @@ impl Condition {
     /// State on this condition with everything else zero.
     pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
-        x[0] = self.mach * atmosphere.air(self.altitude).sound_speed;
+        x[0] = self.mach * atmosphere.sound_speed(self.altitude);
         x[1] = self.altitude;
         x[2] = self.gamma;
         x

@@ -27,9 +27,6 @@ struct Counted<'a> {
 }
 
 impl System<STATES> for Counted<'_> {
-    fn states(&self) -> usize {
-        self.vehicle.states()
-    }
     fn derivatives(&self, _: f64, x: &State) -> State {
         self.calls.set(self.calls.get() + 1);
         self.vehicle.derivatives(x, &self.control, 0.0)

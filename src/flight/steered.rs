@@ -33,9 +33,6 @@ pub(super) fn in_effect(
 }
 
 impl System<STATES> for Steered<'_> {
-    fn states(&self) -> usize {
-        self.vehicle.states()
-    }
     fn derivatives(&self, t: f64, x: &State) -> State {
         let (control, gust) = self.at(t);
         self.vehicle.derivatives(x, &control, gust)

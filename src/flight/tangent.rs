@@ -33,9 +33,10 @@ impl Flight {
             let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
             let w = Dual { re: gust, eps: [gust_change] };
             let along = |dual: Dual<1>| dual.eps[0];
+            let (derivatives, outputs) = vehicle.both(&x, &u, w);
             Sample {
-                outputs: vehicle.outputs(&x, &u, w).map(along),
-                derivatives: vehicle.derivatives(&x, &u, w).map(along),
+                outputs: outputs.map(along),
+                derivatives: derivatives.map(along),
                 control: control_change,
             }
         });
