@@ -61,14 +61,12 @@ impl Polynomial {
     }
 }
 
-/// How one coefficient answers the modal coordinates: per metre of eta, and per metre of
-/// eta-dot over V. Flexible modes first, then slosh modes.
+/// How one coefficient answers the modal coordinates, flexible modes first, then slosh modes: per
+/// metre of eta, and per metre of eta-dot over V. In pairs, as in the state.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ElasticTerm {
-    /// d/d eta, 1/m.
-    pub eta: [f64; MODES],
-    /// d/d(eta-dot/V), 1/m.
-    pub rate: [f64; MODES],
+    /// d/d eta and d/d(eta-dot/V), 1/m.
+    pub per: [[f64; 2]; MODES],
 }
 
 /// Generalised force on one mode: aerodynamic terms over qbar S, thrust terms over the thrust; mode

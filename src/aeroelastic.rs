@@ -167,16 +167,16 @@ pub fn derive(
 
     let mut elastic = Elastic::default();
     for i in 0..modes.shape.len() {
-        elastic.lift.eta[i] = -answer(&|m| m.slope[i]);
-        elastic.lift.rate[i] = -answer(&|m| m.phi[i]);
-        elastic.moment.eta[i] = answer(&|m| m.x_slope[i]) / aero.chord;
-        elastic.moment.rate[i] = answer(&|m| m.x_phi[i]) / aero.chord;
+        elastic.lift.per[i][0] = -answer(&|m| m.slope[i]);
+        elastic.lift.per[i][1] = -answer(&|m| m.phi[i]);
+        elastic.moment.per[i][0] = answer(&|m| m.x_slope[i]) / aero.chord;
+        elastic.moment.per[i][1] = answer(&|m| m.x_phi[i]) / aero.chord;
         // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
-        elastic.drag.eta[i] = drag_per_lift * elastic.lift.eta[i];
-        elastic.drag.rate[i] = drag_per_lift * elastic.lift.rate[i];
+        elastic.drag.per[i][0] = drag_per_lift * elastic.lift.per[i][0];
+        elastic.drag.per[i][1] = drag_per_lift * elastic.lift.per[i][1];
         // The engine swallows what the fore-body has turned.
-        elastic.inflow.eta[i] = -surfaces[0].mean.slope[i] * scale;
-        elastic.inflow.rate[i] = -surfaces[0].mean.phi[i] * scale;
+        elastic.inflow.per[i][0] = -surfaces[0].mean.slope[i] * scale;
+        elastic.inflow.per[i][1] = -surfaces[0].mean.phi[i] * scale;
 
         let per_mass = 1.0 / modes.modal_mass[i];
         let load = |power: usize| {
@@ -193,8 +193,8 @@ pub fn derive(
             ..ModalForce::default()
         };
         for k in 0..modes.shape.len() {
-            force.elastic.eta[k] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
-            force.elastic.rate[k] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
+            force.elastic.per[k][0] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
+            force.elastic.per[k][1] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
         }
         elastic.force[i] = force;
     }

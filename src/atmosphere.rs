@@ -64,7 +64,12 @@ impl Atmosphere {
         for (i, (&base_m, &lapse_k_per_m)) in steps.enumerate().take(MAX_LAYERS) {
             let (temperature_k, pressure_pa) = match i {
                 0 => (air.sea_level_temperature_k.value, air.sea_level_pressure_pa.value),
-                _ => atmosphere.layers[i - 1].at(base_m),
+                _ => {
+                    let below = &atmosphere.layers[i - 1];
+                    let height = base_m - below.base_m;
+                    let temperature = below.temperature(height);
+                    (temperature, below.pressure(height, temperature))
+                }
             };
             let per_kelvin = if lapse_k_per_m == 0.0 { temperature_k } else { lapse_k_per_m };
             atmosphere.layers[i] = Layer {
@@ -82,6 +87,26 @@ impl Atmosphere {
     /// Air at the geometric altitude `h` (m). Below sea level and above the last layer the nearest
     /// edge is taken: an integrator may look there, a flight never gets there.
     pub fn air<S: Scalar>(&self, h: S) -> Air<S> {
+        let (layer, height) = self.layer(h);
+        let temperature = layer.temperature(height);
+        let density = layer.pressure(height, temperature) / (temperature * self.gas_constant);
+        Air { density, temperature, sound_speed: self.sound_speed_at(temperature) }
+    }
+
+    /// Speed of sound, m/s, without the rest of [`Atmosphere::air`].
+    pub fn sound_speed<S: Scalar>(&self, h: S) -> S {
+        let (layer, height) = self.layer(h);
+        self.sound_speed_at(layer.temperature(height))
+    }
+
+    #[inline]
+    fn sound_speed_at<S: Scalar>(&self, temperature: S) -> S {
+        (temperature * (self.heat_capacity_ratio * self.gas_constant)).sqrt()
+    }
+
+    /// The layer at a geometric altitude, and the geopotential height above its base, m.
+    #[inline]
+    fn layer<S: Scalar>(&self, h: S) -> (&Layer, S) {
         let geopotential = h * self.radius / (h + self.radius);
         let clamped = match geopotential.value() {
             value if value > self.top_m => S::constant(self.top_m),
@@ -93,12 +118,7 @@ impl Atmosphere {
             .rev()
             .find(|layer| layer.base_m <= clamped.value())
             .unwrap_or(&self.layers[0]);
-        let (temperature, pressure) = layer.at(clamped);
-        Air {
-            density: pressure / (temperature * self.gas_constant),
-            temperature,
-            sound_speed: (temperature * (self.heat_capacity_ratio * self.gas_constant)).sqrt(),
-        }
+        (layer, clamped - layer.base_m)
     }
 
     /// g = g0 (R/(R+h))^2, m/s^2, and the distance R+h from the earth's centre, m.
@@ -116,16 +136,21 @@ impl Atmosphere {
 }
 
 impl Layer {
-    /// Temperature (K) and pressure (Pa) at a geopotential altitude (m).
+    /// Temperature, K, at a geopotential height above the base, m.
     #[inline]
-    fn at<S: Scalar>(&self, geopotential: S) -> (S, S) {
-        let height = geopotential - self.base_m;
-        let temperature = height * self.lapse_k_per_m + self.temperature_k;
-        let pressure = if self.lapse_k_per_m == 0.0 {
-            (height * -self.exponent).exp() * self.pressure_pa
+    fn temperature<S: Scalar>(&self, height: S) -> S {
+        height * self.lapse_k_per_m + self.temperature_k
+    }
+
+    /// Pressure, Pa, at a geopotential height above the base, m.
+    #[inline]
+    fn pressure<S: Scalar>(&self, height: S, temperature: S) -> S {
+        // exp and ln instead of a power: half the work, and the logarithm is small within a layer.
+        let fall = if self.lapse_k_per_m == 0.0 {
+            height
         } else {
-            (temperature * (1.0 / self.temperature_k)).powf(-self.exponent) * self.pressure_pa
+            (temperature * (1.0 / self.temperature_k)).ln()
         };
-        (temperature, pressure)
+        (fall * -self.exponent).exp() * self.pressure_pa
     }
 }

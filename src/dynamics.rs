@@ -14,7 +14,7 @@ pub const RIGID: usize = 5;
 /// Rigid states, then (eta, eta-dot) of the flexible modes, then of the slosh modes.
 pub const STATES: usize = RIGID + 2 * MODES;
 /// delta_e, phi.
-pub const INPUTS: usize = 2;
+pub const CONTROLS: usize = 2;
 /// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
     [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
@@ -22,7 +22,7 @@ pub const NOMINAL: [f64; STATES] =
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];
 /// Effective elevator deflection (rad) and fuel equivalence ratio.
-pub type Control<S = f64> = [S; INPUTS];
+pub type Control<S = f64> = [S; CONTROLS];
 
 /// The vehicle in one configuration at one fuel level, ready to fly. Per metre of width.
 #[derive(Debug, Clone)]
@@ -52,6 +52,18 @@ pub struct Vehicle {
     pub slosh: [[f64; MODES]; SLOSH],
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
+}
+
+/// The vehicle as air in vertical motion meets it.
+struct Stream<S> {
+    /// The state with the speed through the air for V and the incidence to it for alpha.
+    state: State<S>,
+    /// Sine and cosine of the angle of attack, of the body against the flight path.
+    body: (S, S),
+    /// Sine and cosine of the incidence, of the body against the stream.
+    axis: (S, S),
+    /// Sine and cosine of the angle by which the stream comes from below the flight path.
+    turn: (S, S),
 }
 
 /// Forces on the vehicle, per metre of width.
@@ -119,9 +131,39 @@ impl Vehicle {
         RIGID + 2 * self.modes
     }
 
-    /// Eq. (4).
+    /// What air that rises at `gust` (m/s) makes of the state.
     #[inline]
+    fn stream<S: Scalar>(x: &State<S>, gust: S) -> Stream<S> {
+        let (zero, one) = (S::constant(0.0), S::constant(1.0));
+        let body = x[3].sin_cos();
+        if gust.is_zero() {
+            return Stream { state: *x, body, axis: body, turn: (zero, one) };
+        }
+        let (sin_gamma, cos_gamma) = x[2].sin_cos();
+        let (along, across) = (x[0] - gust * sin_gamma, gust * cos_gamma);
+        let speed = (along * along + across * across).sqrt();
+        let mut state = *x;
+        state[0] = speed;
+        state[3] = x[3] + (across / along).atan();
+        let (sin, cos) = (across / speed, along / speed);
+        let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
+        Stream { state, body, axis, turn: (sin, cos) }
+    }
+
+    /// The state as air rising at `gust` (m/s) meets it: speed through the air for V, incidence to
+    /// it for alpha. Still air leaves it bit for bit as it is.
+    pub fn as_met(x: &State, gust: f64) -> State {
+        Self::stream(x, gust).state
+    }
+
+    /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
+        self.loads_on(x[3].sin_cos(), x, u)
+    }
+
+    /// Eq. (4), with the sine and cosine of the incidence.
+    #[inline]
+    fn loads_on<S: Scalar>(&self, (sin, cos): (S, S), x: &State<S>, u: &Control<S>) -> Loads<S> {
         let (speed, altitude, alpha) = (x[0], x[1], x[3]);
         let (delta_e, phi) = (u[0], u[1]);
         let air = self.atmosphere.air(altitude);
@@ -142,7 +184,6 @@ impl Vehicle {
         let inflow = alpha + elastic(&self.elastic.inflow);
         let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
 
-        let (sin, cos) = alpha.sin_cos();
         let c_n = c_l * cos + c_d * sin;
         let shift = self.mass_centre - self.aero.moment_centre;
         let thrust = force * c_t;
@@ -160,30 +201,61 @@ impl Vehicle {
     /// Sum of an elastic term over the modal coordinates and their rates.
     #[inline]
     fn elastic_sum<S: Scalar>(&self, term: &ElasticTerm, x: &State<S>, per_speed: S) -> S {
-        let mut eta = S::constant(0.0);
-        let mut rate = S::constant(0.0);
-        for i in 0..self.modes {
-            eta = eta + x[RIGID + 2 * i] * term.eta[i];
-            rate = rate + x[RIGID + 2 * i + 1] * term.rate[i];
+        let mut sums = [S::constant(0.0); 2];
+        for (i, per) in term.per.iter().enumerate() {
+            for part in 0..2 {
+                sums[part] = sums[part] + x[RIGID + 2 * i + part] * per[part];
+            }
         }
-        eta + rate * per_speed
+        sums[0] + sums[1] * per_speed
     }
 
-    /// Eq. (3): time derivatives of all states.
-    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> State<S> {
-        let [speed, altitude, gamma, alpha, q, ..] = *x;
-        let loads = self.loads(x, u);
+    /// Eq. (3): time derivatives of all states, in air that rises at `gust`, m/s.
+    ///
+    /// Beyond eq. (3), which knows still air only: lift and drag are those of the speed and the
+    /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
+    /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
+    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
+        let stream = Self::stream(x, gust);
+        self.rates(&stream, &self.loads_on(stream.axis, &stream.state, u), x, u)
+    }
+
+    /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
+    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
+        let stream = Self::stream(x, gust);
+        self.shown(self.loads_on(stream.axis, &stream.state, u), x)
+    }
+
+    /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
+    pub fn both<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> (State<S>, Outputs<S>) {
+        let stream = Self::stream(x, gust);
+        let loads = self.loads_on(stream.axis, &stream.state, u);
+        (self.rates(&stream, &loads, x, u), self.shown(loads, x))
+    }
+
+    /// Eq. (3) under known loads.
+    fn rates<S: Scalar>(
+        &self,
+        stream: &Stream<S>,
+        loads: &Loads<S>,
+        x: &State<S>,
+        u: &Control<S>,
+    ) -> State<S> {
+        let [speed, altitude, gamma, _, q, ..] = *x;
+        let (sin_alpha, cos_alpha) = stream.body;
+        let (sin_turn, cos_turn) = stream.turn;
         let (gravity, distance) = self.atmosphere.gravity(altitude);
-        let (sin_alpha, cos_alpha) = alpha.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
         let per_mass = 1.0 / self.mass;
 
-        let gamma_dot = (loads.lift + loads.thrust * sin_alpha) * per_speed * per_mass
+        let lift = loads.lift * cos_turn + loads.drag * sin_turn;
+        let drag = loads.drag * cos_turn - loads.lift * sin_turn;
+        let gamma_dot = (lift + loads.thrust * sin_alpha) * per_speed * per_mass
             - (gravity * per_speed - speed / distance) * cos_gamma;
 
         let mut rates = [S::constant(0.0); STATES];
-        rates[0] = (loads.thrust * cos_alpha - loads.drag) * per_mass - gravity * sin_gamma;
+        rates[0] = (loads.thrust * cos_alpha - drag) * per_mass - gravity * sin_gamma;
         rates[1] = speed * sin_gamma;
         rates[2] = gamma_dot;
         rates[3] = q - gamma_dot;
@@ -191,36 +263,36 @@ impl Vehicle {
 
         let force = loads.qbar * self.aero.area;
         let elevator = self.aero.lift.elevator(u[0]);
-        let plume = u[1] * self.aero.lift_phi.body(alpha);
-        for i in 0..self.modes {
-            let n = &self.elastic.force[i];
+        let (incidence, (sin_incidence, _)) = (stream.state[3], stream.axis);
+        let per_airspeed = S::constant(1.0) / stream.state[0];
+        let plume = u[1] * self.aero.lift_phi.body(incidence);
+        for (i, n) in self.elastic.force.iter().enumerate() {
             let [n_0, n_alpha, n_alpha2] = n.alpha;
-            let generalised = (alpha * n_alpha2 + n_alpha) * alpha
+            let generalised = (incidence * n_alpha2 + n_alpha) * incidence
                 + n_0
                 + elevator * n.delta_e
                 + plume * n.plume
-                + q * per_speed * n.pitch_rate
-                + self.elastic_sum(&n.elastic, x, per_speed);
+                + q * per_airspeed * n.pitch_rate
+                + self.elastic_sum(&n.elastic, x, per_airspeed);
             let mut damping = S::constant(0.0);
-            for k in 0..self.modes {
-                damping = damping + x[RIGID + 2 * k + 1] * self.damping[i][k];
+            for (k, per_second) in self.damping[i].iter().enumerate() {
+                damping = damping + x[RIGID + 2 * k + 1] * *per_second;
             }
-            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
+            let engine = loads.thrust * (sin_incidence * n.thrust_across + n.thrust_couple);
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
             rates[eta_dot] = force * generalised + engine + self.floor[i]
                 - damping
                 - x[eta] * (self.omega[i] * self.omega[i]);
         }
+        rates[self.states()..].fill(S::constant(0.0));
         rates
     }
 
-    /// Everything that is shown beside the states.
-    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Outputs<S> {
-        let loads = self.loads(x, u);
+    fn shown<S: Scalar>(&self, loads: Loads<S>, x: &State<S>) -> Outputs<S> {
         let slosh = std::array::from_fn(|tank| {
-            (0..self.modes)
-                .fold(S::constant(0.0), |sum, i| sum + x[RIGID + 2 * i] * self.slosh[tank][i])
+            let parts = self.slosh[tank].iter().enumerate();
+            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
         });
         let weight = self.mass * self.atmosphere.sea_level_gravity();
         Outputs { loads, theta: x[2] + x[3], slosh, n_z: loads.normal * (1.0 / weight) }

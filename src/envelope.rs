@@ -35,7 +35,7 @@ impl Limited {
 
 impl Envelope {
     fn limited(&self, atmosphere: &Atmosphere, x: &State) -> [Limited; 3] {
-        let mach = x[0] / atmosphere.air(x[1]).sound_speed;
+        let mach = x[0] / atmosphere.sound_speed(x[1]);
         [
             Limited { variable: "h", value: x[1], limits: self.altitude },
             Limited { variable: "mach", value: mach, limits: self.mach },

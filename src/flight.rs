@@ -2,19 +2,21 @@
 
 mod inputs;
 mod snapshot;
+mod steered;
 mod tangent;
 
-pub use inputs::{INPUT_ORDER, Inputs};
+pub use inputs::{GUST, INPUT_ORDER, INPUTS, Inputs};
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{Control, Outputs, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
-use crate::integrate::{Arrival, Integrator, System};
+use crate::integrate::{Arrival, Integrator};
 use crate::parameters::{InputMode, Parameters};
 use crate::trim::{Trim, trim};
 use crate::vehicle::Data;
 use std::sync::Arc;
+use steered::{Steered, in_effect};
 
 /// Tolerance of a master that asks for none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-8;
@@ -56,45 +58,9 @@ struct Ready {
     trim: Trim,
 }
 
-/// A vehicle under the controls of one step.
-struct Steered<'a> {
-    vehicle: &'a Vehicle,
-    /// What the inputs are added to.
-    base: Control,
-    inputs: &'a Inputs,
-    /// Controls in effect, if they do not move.
-    held: Option<Control>,
-}
-
-impl Steered<'_> {
-    /// Controls in effect after a time (s) of the step, cut to the actuators' limits.
-    #[inline]
-    fn control(&self, t: f64) -> Control {
-        self.held.unwrap_or_else(|| in_effect(self.vehicle, &self.base, &self.inputs.at(t)))
-    }
-}
-
-fn in_effect(vehicle: &Vehicle, base: &Control, inputs: &Control) -> Control {
-    vehicle.saturate([base[0] + inputs[0], base[1] + inputs[1]])
-}
-
-impl System<STATES> for Steered<'_> {
-    fn states(&self) -> usize {
-        self.vehicle.states()
-    }
-    fn derivatives(&self, t: f64, x: &State) -> State {
-        self.vehicle.derivatives(x, &self.control(t))
-    }
-    fn holds(&self, x: &State) -> bool {
-        self.vehicle.aero.envelope.holds(&self.vehicle.atmosphere, x)
-    }
-    fn nominal(&self) -> &State {
-        &NOMINAL
-    }
-}
-
-fn left(vehicle: &Vehicle, state: &State, time_s: f64) -> Error {
-    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
+fn left(vehicle: &Vehicle, state: &State, gust: f64, time_s: f64) -> Error {
+    let met = Vehicle::as_met(state, gust);
+    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, &met);
     let [min, max] = tightest.limits;
     Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
@@ -150,7 +116,7 @@ impl Flight {
         &self.inputs
     }
 
-    /// Sets one input: 0 elevator (rad), 1 fuel ratio.
+    /// Sets one input: 0 elevator (rad), 1 fuel ratio, 2 gust (m/s).
     pub fn set_input(&mut self, index: usize, value: f64) {
         if self.inputs.values[index] != value {
             self.slope = None;
@@ -198,9 +164,11 @@ impl Flight {
     /// [`Error::Envelope`] if they do not; those of [`Flight::initialise`].
     pub fn check(&mut self) -> Result<(), Error> {
         self.initialise()?;
+        let gust = self.inputs.values[GUST];
+        let met = Vehicle::as_met(&self.state, gust);
         match self.vehicle() {
-            Some(vehicle) if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &self.state) => {
-                Err(left(vehicle, &self.state, self.time))
+            Some(vehicle) if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &met) => {
+                Err(left(vehicle, &self.state, gust, self.time))
             }
             _ => Ok(()),
         }
@@ -253,8 +221,8 @@ impl Flight {
         if deviation { ready.trim.control } else { [0.0; 2] }
     }
 
-    /// Controls in effect: cut to the actuators' limits.
-    fn control(&self, ready: &Ready) -> Control {
+    /// Controls in effect, cut to the actuators' limits, and gust.
+    fn control(&self, ready: &Ready) -> (Control, f64) {
         in_effect(&ready.vehicle, &self.base(ready), &self.inputs.values)
     }
 
@@ -265,12 +233,11 @@ impl Flight {
     pub fn evaluate(&mut self) -> Result<(), Error> {
         self.initialise()?;
         if let (None, Some(ready)) = (&self.sample, &self.ready) {
-            let control = self.control(ready);
-            let derivatives = match self.slope {
-                Some(slope) => slope,
-                None => ready.vehicle.derivatives(&self.state, &control),
+            let (control, gust) = self.control(ready);
+            let (derivatives, outputs) = match self.slope {
+                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust)),
+                None => ready.vehicle.both(&self.state, &control, gust),
             };
-            let outputs = ready.vehicle.outputs(&self.state, &control);
             self.slope = Some(derivatives);
             self.sample = Some(Sample { outputs, derivatives, control });
         }
@@ -319,7 +286,7 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                Err(left(&ready.vehicle, &self.state, self.time))
+                Err(left(&ready.vehicle, &self.state, self.inputs.values[GUST], self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

@@ -1,13 +1,11 @@
 //! Integration of x' = f(t, x) over one interval, landing exactly on its end. Knows no aircraft.
 
-/// What is integrated. States beyond [`System::states`] are left alone.
+/// What is integrated.
 pub trait System<const N: usize> {
-    /// Number of states in use, at most `N`.
-    fn states(&self) -> usize;
-    /// f(t, x).
+    /// f(t, x); zero for states that are not in use.
     fn derivatives(&self, t: f64, x: &[f64; N]) -> [f64; N];
-    /// Whether the model still holds at x; an accepted step never ends where it does not.
-    fn holds(&self, x: &[f64; N]) -> bool;
+    /// Whether the model still holds at t and x; an accepted step never ends where it does not.
+    fn holds(&self, t: f64, x: &[f64; N]) -> bool;
     /// Typical size of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
 }
@@ -67,7 +65,8 @@ impl Integrator {
     }
 
     /// Moves `x` from `start` to `end`. `first` holds f(start, x) if the caller knows it; on return
-    /// it holds f at the state reached.
+    /// it holds f at the state reached, if that is known. At the end of the interval it is not: the
+    /// next interval may have other inputs.
     ///
     /// The rest of the interval is cut into equal steps, none longer than the proposal, so no
     /// sliver is left at its end.
@@ -115,7 +114,7 @@ impl Integrator {
                 self.proposal = wanted;
                 continue;
             }
-            if !system.holds(&next) {
+            if !system.holds(t + h, &next) {
                 // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
                 invalid = target.min(t + h);
                 continue;
@@ -124,9 +123,11 @@ impl Integrator {
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
             t = if last && invalid > end { end } else { t + h };
             *x = next;
-            slope = system.derivatives(t, x);
+            if t < end {
+                slope = system.derivatives(t, x);
+            }
         }
-        *first = Some(slope);
+        *first = None;
         Arrival::Complete
     }
 
@@ -140,24 +141,22 @@ impl Integrator {
         h: f64,
         slope: &[f64; N],
     ) -> ([f64; N], f64) {
-        let n = system.states();
         let mut stages = [[0.0; N]; S];
         stages[0] = *slope;
+        let advanced = |sum: [f64; N]| std::array::from_fn(|i| x[i] + h * sum[i]);
         for stage in 1..S {
-            let trial = combine(x, &stages, &tableau.a[stage], stage, h, n);
+            let trial = advanced(combine(&stages[..stage], &tableau.a[stage]));
             stages[stage] = system.derivatives(t + tableau.c[stage] * h, &trial);
         }
-        let next = combine(x, &stages, &tableau.b, S, h, n);
+        let next = advanced(combine(&stages, &tableau.b));
 
         let nominal = system.nominal();
+        let estimates = [&tableau.error, &tableau.error_low].map(|w| combine(&stages, w));
         let (mut high, mut low) = (0.0_f64, 0.0_f64);
-        for i in 0..n {
+        for i in 0..N {
             let scale = self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs()));
-            let sum = |weights: &[f64; S]| {
-                (0..S).fold(0.0, |sum, stage| sum + weights[stage] * stages[stage][i])
-            };
-            high = worse(high, h * sum(&tableau.error) / scale);
-            low = worse(low, h * sum(&tableau.error_low) / scale);
+            high = worse(high, h * estimates[0][i] / scale);
+            low = worse(low, h * estimates[1][i] / scale);
         }
         if high == 0.0 {
             return (next, 0.0);
@@ -173,23 +172,16 @@ fn worse(largest: f64, value: f64) -> f64 {
     if magnitude > largest || magnitude.is_nan() { magnitude } else { largest }
 }
 
-/// x + h sum_j weights_j stages_j over the first `count` stages.
+/// sum_j weights_j stages_j. Over all states, in use or not: a fixed length keeps the sum in registers.
 #[inline]
-fn combine<const N: usize, const S: usize>(
-    x: &[f64; N],
-    stages: &[[f64; N]; S],
-    weights: &[f64; S],
-    count: usize,
-    h: f64,
-    n: usize,
-) -> [f64; N] {
+fn combine<const N: usize>(stages: &[[f64; N]], weights: &[f64]) -> [f64; N] {
     let mut sum = [0.0; N];
-    for (stage, &weight) in stages.iter().zip(weights).take(count) {
+    for (stage, &weight) in stages.iter().zip(weights) {
         if weight != 0.0 {
-            for i in 0..n {
+            for i in 0..N {
                 sum[i] += weight * stage[i];
             }
         }
     }
-    std::array::from_fn(|i| x[i] + h * sum[i])
+    sum
 }

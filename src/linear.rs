@@ -1,7 +1,7 @@
 //! Linearisation, poles and transmission zeros (Tables 2 and 3).
 
-use crate::dynamics::{Control, INPUTS, STATES, State, Vehicle};
-use crate::scalar::Dual;
+use crate::dynamics::{CONTROLS, Control, STATES, State, Vehicle};
+use crate::scalar::{Dual, Scalar};
 use nalgebra::{Complex, DMatrix, linalg::balancing};
 
 /// x' = A x + B u, y = C x with y = [V, gamma]; D is zero. Only the states in use.
@@ -15,7 +15,7 @@ pub struct Linear {
     pub c: DMatrix<f64>,
 }
 
-const DIRECTIONS: usize = STATES + INPUTS;
+const DIRECTIONS: usize = STATES + CONTROLS;
 /// Rows of the state that are the outputs V and gamma.
 pub const OUTPUT_STATES: [usize; 2] = [0, 2];
 
@@ -25,11 +25,11 @@ impl Linear {
         let x: State<Dual<DIRECTIONS>> = std::array::from_fn(|i| Dual::variable(state[i], i));
         let u: Control<Dual<DIRECTIONS>> =
             std::array::from_fn(|i| Dual::variable(control[i], STATES + i));
-        let rates = vehicle.derivatives(&x, &u);
+        let rates = vehicle.derivatives(&x, &u, Dual::constant(0.0));
         let n = vehicle.states();
         Self {
             a: DMatrix::from_fn(n, n, |row, column| rates[row].eps[column]),
-            b: DMatrix::from_fn(n, INPUTS, |row, column| rates[row].eps[STATES + column]),
+            b: DMatrix::from_fn(n, CONTROLS, |row, column| rates[row].eps[STATES + column]),
             c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| {
                 f64::from(OUTPUT_STATES[row] == column)
             }),

@@ -26,10 +26,14 @@ pub trait Scalar:
     fn sin_cos(self) -> (Self, Self);
     /// Exponential function.
     fn exp(self) -> Self;
-    /// Power with a constant exponent, for a positive base.
-    fn powf(self, exponent: f64) -> Self;
+    /// Natural logarithm of a positive number.
+    fn ln(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
+    /// Arc tangent.
+    fn atan(self) -> Self;
+    /// Whether it is zero in every way, so that nothing that it drives need be computed.
+    fn is_zero(self) -> bool;
 }
 
 impl Scalar for f64 {
@@ -50,12 +54,20 @@ impl Scalar for f64 {
         libm::exp(self)
     }
     #[inline]
-    fn powf(self, exponent: f64) -> Self {
-        libm::pow(self, exponent)
+    fn ln(self) -> Self {
+        libm::log(self)
     }
     #[inline]
     fn sqrt(self) -> Self {
         libm::sqrt(self)
+    }
+    #[inline]
+    fn atan(self) -> Self {
+        libm::atan(self)
+    }
+    #[inline]
+    fn is_zero(self) -> bool {
+        self == 0.0
     }
 }
 
@@ -160,12 +172,17 @@ impl<const N: usize> Scalar for Dual<N> {
         let value = libm::exp(self.re);
         self.chain(value, value)
     }
-    fn powf(self, exponent: f64) -> Self {
-        let value = libm::pow(self.re, exponent);
-        self.chain(value, exponent * value / self.re)
+    fn ln(self) -> Self {
+        self.chain(libm::log(self.re), 1.0 / self.re)
     }
     fn sqrt(self) -> Self {
         let value = libm::sqrt(self.re);
         self.chain(value, 0.5 / value)
+    }
+    fn atan(self) -> Self {
+        self.chain(libm::atan(self.re), 1.0 / (1.0 + self.re * self.re))
+    }
+    fn is_zero(self) -> bool {
+        self.re == 0.0 && self.eps.iter().all(|&slope| slope == 0.0)
     }
 }

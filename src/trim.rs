@@ -1,10 +1,10 @@
 //! Trim: the controls and static deflections of steady flight.
 
 use crate::atmosphere::Atmosphere;
-use crate::dynamics::{Control, INPUTS, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{CONTROLS, Control, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::modes::MODES;
-use crate::scalar::Dual;
+use crate::scalar::{Dual, Scalar};
 use nalgebra::{SMatrix, SVector};
 
 /// Flight condition to be held.
@@ -42,7 +42,7 @@ impl Condition {
     /// State on this condition with everything else zero.
     pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
-        x[0] = self.mach * atmosphere.air(self.altitude).sound_speed;
+        x[0] = self.mach * atmosphere.sound_speed(self.altitude);
         x[1] = self.altitude;
         x[2] = self.gamma;
         x
@@ -68,9 +68,9 @@ fn residual(
 ) -> (Vector, SMatrix<f64, UNKNOWNS, UNKNOWNS>) {
     let variables: [Dual<UNKNOWNS>; UNKNOWNS] = std::array::from_fn(|i| Dual::variable(z[i], i));
     let mut x = start.map(|value| Dual { re: value, eps: [0.0; UNKNOWNS] });
-    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; INPUTS];
+    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; CONTROLS];
     insert(&mut x, &mut u, &variables);
-    let rates = vehicle.derivatives(&x, &u);
+    let rates = vehicle.derivatives(&x, &u, Dual::constant(0.0));
 
     let mut value = Vector::zeros();
     let mut jacobian = SMatrix::identity();

@@ -8,9 +8,9 @@ mod table;
 pub use hash::{MODEL_HASH, guid};
 pub use table::TABLE;
 
-use crate::dynamics::{INPUTS, NOMINAL, STATES};
+use crate::dynamics::{NOMINAL, STATES};
 use crate::error::Error;
-use crate::flight::Flight;
+use crate::flight::{Flight, INPUTS};
 
 /// A unit with the exponents of its base units and, where users think in another one, how to show
 /// it.
@@ -54,7 +54,7 @@ pub enum Role {
     Calculated,
 }
 
-/// On which states (bits 0 to 14) and inputs (bits 15 and 16) a variable depends, and how: each bit
+/// On which states (bits 0 to 14) and inputs (bits 15 to 17) a variable depends, and how: each bit
 /// in one mask only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dependencies {

@@ -47,10 +47,10 @@ fn verif_a_rigid_rotation_is_an_incidence() {
     for set in UNSCALED {
         let Case { aero, elastic, .. } = rigid_motions(set);
         let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
-        assert_close("C_L", elastic.lift.eta[1], -slope(&aero.lift), ROUNDING);
-        assert_close("C_M", elastic.moment.eta[1], -slope(&aero.moment), ROUNDING);
-        assert_close("C_D", elastic.drag.eta[1], -slope(&aero.drag), ROUNDING);
-        assert_close("inflow", elastic.inflow.eta[1], -1.0, ROUNDING);
+        assert_close("C_L", elastic.lift.per[1][0], -slope(&aero.lift), ROUNDING);
+        assert_close("C_M", elastic.moment.per[1][0], -slope(&aero.moment), ROUNDING);
+        assert_close("C_D", elastic.drag.per[1][0], -slope(&aero.drag), ROUNDING);
+        assert_close("inflow", elastic.inflow.per[1][0], -1.0, ROUNDING);
     }
 }
 
@@ -59,10 +59,12 @@ fn verif_a_heave_velocity_is_an_incidence() {
     for set in UNSCALED {
         let Case { aero, elastic, .. } = rigid_motions(set);
         let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
-        assert_close("C_L", elastic.lift.rate[0], -slope(&aero.lift), ROUNDING);
-        assert_close("C_M", elastic.moment.rate[0], -slope(&aero.moment), ROUNDING);
-        assert_close("C_D", elastic.drag.rate[0], -slope(&aero.drag), ROUNDING);
-        assert!(elastic.lift.eta[0].abs() < ROUNDING && elastic.moment.eta[0].abs() < ROUNDING);
+        assert_close("C_L", elastic.lift.per[0][1], -slope(&aero.lift), ROUNDING);
+        assert_close("C_M", elastic.moment.per[0][1], -slope(&aero.moment), ROUNDING);
+        assert_close("C_D", elastic.drag.per[0][1], -slope(&aero.drag), ROUNDING);
+        assert!(
+            elastic.lift.per[0][0].abs() < ROUNDING && elastic.moment.per[0][0].abs() < ROUNDING
+        );
     }
 }
 
@@ -107,7 +109,7 @@ fn verif_liquid_at_rest_lies_on_the_floor() {
         let build = ahv::vehicle::Build { fuel_fraction, ..build(Configuration::SloshBeam) };
         let vehicle = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
         let trim = ahv::trim::trim(&vehicle, &build.condition).unwrap();
-        let slosh = vehicle.outputs(&trim.state, &trim.control).slosh;
+        let slosh = vehicle.outputs(&trim.state, &trim.control, 0.0).slosh;
         assert!(slosh.iter().all(|s| s.abs() < 2e-3), "fuel {fuel_fraction}: {slosh:?} m");
     }
 }
@@ -118,7 +120,7 @@ fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
     let Case { elastic, centre, aero } = rigid_motions(AeroSet::Parker2007);
     assert_eq!(centre, aero.moment_centre);
     for force in &elastic.force[..2] {
-        assert_close("rate", force.pitch_rate, -force.elastic.rate[1], ROUNDING);
+        assert_close("rate", force.pitch_rate, -force.elastic.per[1][1], ROUNDING);
     }
 }
 
@@ -132,7 +134,7 @@ fn verif_the_air_damps_every_mode() {
         let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
         let n = vehicle.modes;
         let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
-            let entry = |i: usize, k: usize| vehicle.elastic.force[i].elastic.rate[k] * mass[i];
+            let entry = |i: usize, k: usize| vehicle.elastic.force[i].elastic.per[k][1] * mass[i];
             0.5 * (entry(i, k) + entry(k, i))
         });
         let eigenvalues = damping.symmetric_eigenvalues();
@@ -149,7 +151,7 @@ fn verif_two_strips_are_plausible() {
     let data = data();
     let length = data.vehicle.geometry.length_m.value;
     let fore = data.vehicle.geometry.fore_body_m.value;
-    let [lift, arm] = [-elastic.lift.eta[1], elastic.moment.eta[1] * aero.chord];
+    let [lift, arm] = [-elastic.lift.per[1][0], elastic.moment.per[1][0] * aero.chord];
     let elevator = aero.lift.delta_e[0];
     let elevator_x = aero.moment_centre - aero.chord * aero.moment.delta_e[0] / elevator;
     // From total lift slope and its arm, by hand.

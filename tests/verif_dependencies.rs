@@ -3,8 +3,8 @@
 
 mod model;
 
-use ahv::dynamics::{INPUTS, NOMINAL, STATES};
-use ahv::flight::{Flight, Snapshot};
+use ahv::dynamics::{NOMINAL, STATES};
+use ahv::flight::{Flight, GUST, INPUTS, Snapshot};
 use ahv::variables::{Role, TABLE, Variable};
 use ahv::vehicle::{AeroSet, Configuration};
 use model::{AERO_SETS, CONFIGURATIONS};
@@ -39,6 +39,8 @@ fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
     for (i, value) in snapshot.state.iter_mut().enumerate().take(states) {
         *value += 0.1 * NOMINAL[i] * [1.0, -0.7, 0.9, 0.8, -1.1][i % 5];
     }
+    // In still air the flight-path angle would not matter to the loads.
+    snapshot.inputs.values[GUST] = 5.0;
     snapshot
 }
 

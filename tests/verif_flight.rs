@@ -3,10 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::{INPUTS, NOMINAL, STATES, State, Vehicle};
+use ahv::dynamics::{CONTROLS, NOMINAL, STATES, State, Vehicle};
 use ahv::error::Error;
 use ahv::linear::Linear;
-use ahv::scalar::Dual;
+use ahv::scalar::{Dual, Scalar};
 use ahv::trim::{Condition, trim};
 use ahv::vehicle::{AeroSet, Configuration};
 use model::{AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, vehicle, vehicle_with};
@@ -34,7 +34,7 @@ fn verif_trim_leaves_no_acceleration() {
                 let vehicle = Vehicle::new(&data(), &build).unwrap();
                 let condition = Condition { mach, ..build.condition };
                 let trimmed = trim(&vehicle, &condition).unwrap();
-                let rates = vehicle.derivatives(&trimmed.state, &trimmed.control);
+                let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, 0.0);
                 for (i, rate) in rates.into_iter().enumerate() {
                     // Modal accelerations against omega^2 times the static deflection.
                     let size = if i < 5 { 10.0 } else { 1e4 };
@@ -53,7 +53,7 @@ fn verif_a_climb_can_be_trimmed_too() {
     let vehicle = vehicle(Configuration::SloshBeam);
     let condition = Condition { mach: 8.0, altitude: 26_000.0, gamma: 0.02 };
     let trimmed = trim(&vehicle, &condition).unwrap();
-    let rates = vehicle.derivatives(&trimmed.state, &trimmed.control);
+    let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, 0.0);
     assert!(deviation(rates[1], trimmed.state[0] * 0.02_f64.sin(), 1.0) < STEADY);
     assert!(rates[0].abs() < STEADY * 10.0 && rates[2].abs() < STEADY);
 }
@@ -88,7 +88,7 @@ proptest! {
         for build in builds() {
             let vehicle = Vehicle::new(&data(), &build).unwrap();
             let x = disturbed(&vehicle, scale);
-            let rates = vehicle.derivatives(&x, &[0.1, 0.3]);
+            let rates = vehicle.derivatives(&x, &[0.1, 0.3], 0.0);
             prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
             prop_assert!(rates[vehicle.states()..].iter().all(|&rate| rate == 0.0));
         }
@@ -102,7 +102,7 @@ proptest! {
             let linear = Linear::new(&vehicle, &x, &u);
             let n = vehicle.states();
             let step = 1e-3;
-            for column in 0..n + INPUTS {
+            for column in 0..n + CONTROLS {
                 let size = if column < n { NOMINAL[column] } else { 1.0 };
                 let shifted = |sign: f64| {
                     let (mut x, mut u) = (x, u);
@@ -111,7 +111,7 @@ proptest! {
                     } else {
                         u[column - n] += sign * step * size;
                     }
-                    vehicle.derivatives(&x, &u)
+                    vehicle.derivatives(&x, &u, 0.0)
                 };
                 let (one, two) = ((shifted(1.0), shifted(-1.0)), (shifted(2.0), shifted(-2.0)));
                 for row in 0..n {
@@ -139,8 +139,9 @@ fn verif_dual_numbers_carry_the_plain_value() {
         let dual = vehicle.derivatives(
             &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),
             &[0.1, 0.3].map(|v| Dual { re: v, eps: [0.0] }),
+            Dual::constant(0.0),
         );
-        assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3]));
+        assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3], 0.0));
     }
 }
 

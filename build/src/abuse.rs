@@ -1,7 +1,7 @@
 //! The C functions under abuse: many random calls, and fewer under tools that watch the memory.
 
-use crate::test::{check, works};
-use crate::workspace::{cargo, target};
+use crate::test::works;
+use crate::workspace::{cargo, check, target};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;

@@ -59,18 +59,21 @@ pub struct Fit {
     pub check: bool,
 }
 
-/// Build the library and write the FMU
+/// Build the libraries and write the FMU
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cargo ahv package
-      build for this machine and write target/ahv.fmu
+      build for Linux and Windows, as far as this machine can, and write target/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
       package libraries that were built elsewhere, for several platforms")]
 pub struct Package {
     /// FMU to write [default: target/ahv.fmu]
     #[arg(long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Fail if a platform cannot be built for
+    #[arg(long, conflicts_with = "library")]
+    pub all_targets: bool,
     /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
     /// darwin64
     #[arg(long, value_name = "PLATFORM=FILE")]

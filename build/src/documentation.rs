@@ -26,6 +26,8 @@ those of the free beam together with the sloshing masses on their springs, so th
 propellant is inside them; the dampers of the sloshing masses couple them.</li>
 <li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel
 ratio and the modal coordinates with their rates.</li>
+<li>In air that moves, incidence, airspeed and Mach number are those relative to the air, and lift
+and drag stand across and along the path through it. The gust is the same along the vehicle.</li>
 </ul>
 <p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
 the master gives for the step; the states are integrated with an explicit

@@ -34,8 +34,8 @@ impl Fmu {
         else {
             bail!("{name}: FMI {}; an FMU for FMI 2.0 co-simulation is needed", model.fmi_version);
         };
-        let (platform, ending) = HOST;
-        let binary = format!("binaries/{platform}/{}.{ending}", co_simulation.model_identifier);
+        let binary =
+            format!("binaries/{}/{}.{}", HOST.name, co_simulation.model_identifier, HOST.ending);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is not in it");

@@ -20,6 +20,7 @@ mod panels;
 mod plot;
 mod poles;
 mod published;
+mod python;
 mod raster;
 mod record;
 mod reproduce;

@@ -27,14 +27,11 @@ struct Counted<'a> {
 }
 
 impl System<STATES> for Counted<'_> {
-    fn states(&self) -> usize {
-        self.vehicle.states()
-    }
     fn derivatives(&self, _: f64, x: &State) -> State {
         self.calls.set(self.calls.get() + 1);
-        self.vehicle.derivatives(x, &self.control)
+        self.vehicle.derivatives(x, &self.control, 0.0)
     }
-    fn holds(&self, _: &State) -> bool {
+    fn holds(&self, _: f64, _: &State) -> bool {
         true
     }
     fn nominal(&self) -> &State {

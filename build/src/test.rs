@@ -1,10 +1,11 @@
 //! Checks everything, in the order in which mistakes are cheapest to find.
 
 use crate::cli::{Describe, Test};
-use crate::workspace::{cargo, read, root, shown, target, write};
+use crate::python::environment;
+use crate::workspace::{cargo, check, root};
 use crate::{abuse, describe, package};
-use anyhow::{Context, Result, bail};
-use std::path::{Path, PathBuf};
+use anyhow::{Result, bail};
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
@@ -22,7 +23,7 @@ const STEPS: [Step; 12] = [
         check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
     }),
     ("description", || describe::run(&Describe { check: true, file: None })),
-    ("package", || package::build().map(|file| println!("{}", shown(&file)))),
+    ("package", || package::build().map(drop)),
     ("C ABI fuzz", abuse::fuzz),
     ("sanitizer", abuse::sanitizer),
     ("valgrind", abuse::valgrind),
@@ -62,17 +63,6 @@ pub fn run(options: &Test) -> Result<()> {
     Ok(())
 }
 
-/// Runs a command that has to succeed.
-pub fn check(command: &mut Command) -> Result<()> {
-    let program = command.get_program().to_string_lossy().into_owned();
-    let first = command.get_args().next().unwrap_or_default().to_string_lossy().into_owned();
-    let status = command.status().with_context(|| format!("cannot start {program}"))?;
-    if !status.success() {
-        bail!("{} {first}: {status}", shown(Path::new(&program)));
-    }
-    Ok(())
-}
-
 /// What has to be on the machine, and the Debian package that brings it.
 fn prerequisites() -> Result<()> {
     const NEEDED: [(&str, &[&str], &str); 5] = [
@@ -107,7 +97,7 @@ pub fn works(program: &str, arguments: &[&str]) -> bool {
 /// The FMU in other masters, driven from Python.
 fn fmu_tests() -> Result<()> {
     let fmu = package::build()?;
-    let python = environment()?;
+    let python = python()?;
     let tests = root().join("tests/fmu");
     check(
         Command::new(python)
@@ -119,7 +109,7 @@ fn fmu_tests() -> Result<()> {
 }
 
 fn python_lints() -> Result<()> {
-    let python = environment()?;
+    let python = python()?;
     for arguments in [["check"].as_slice(), &["format", "--check"]] {
         let mut ruff = Command::new(&python);
         check(ruff.args(["-m", "ruff"]).args(arguments).arg("--no-cache").current_dir(root()))?;
@@ -129,7 +119,7 @@ fn python_lints() -> Result<()> {
 
 /// Our declarations against the official headers, of which FMPy brings a copy.
 fn fmi_headers() -> Result<()> {
-    let python = environment()?;
+    let python = python()?;
     let find = "import fmpy, pathlib; print(pathlib.Path(fmpy.__file__).parent / 'c-code')";
     let output = Command::new(&python).args(["-c", find]).output()?;
     let headers = String::from_utf8_lossy(&output.stdout).trim().to_string();
@@ -141,26 +131,7 @@ fn fmi_headers() -> Result<()> {
     )
 }
 
-/// The Python interpreter of a virtual environment with exactly the locked packages.
-///
-/// A copy of the lock, written last, says that the environment is complete.
-fn environment() -> Result<PathBuf> {
-    let lock = root().join("tests/fmu/requirements.lock");
-    let wanted = read(&lock)?;
-    let directory = target().join("venv");
-    let stamp = directory.join("requirements.lock");
-    let python = directory.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if stamp.exists() && python.exists() && read(&stamp)? == wanted {
-        return Ok(python);
-    }
-    println!("making {} from {}", shown(&directory), shown(&lock));
-    check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))?;
-    check(
-        Command::new(&python)
-            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
-            .args(["--require-hashes", "--requirement"])
-            .arg(&lock),
-    )?;
-    write(&stamp, wanted)?;
-    Ok(python)
+/// The interpreter for the tests of the FMU.
+fn python() -> Result<PathBuf> {
+    Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
 }

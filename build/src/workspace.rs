@@ -51,3 +51,14 @@ pub fn read_text(path: &Path) -> Result<String> {
         Err(_) => bail!("{} is not a text file in UTF-8", shown(path)),
     }
 }
+
+/// Runs a command that has to succeed.
+pub fn check(command: &mut Command) -> Result<()> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let first = command.get_args().next().unwrap_or_default().to_string_lossy().into_owned();
+    let status = command.status().with_context(|| format!("cannot start {program}"))?;
+    if !status.success() {
+        bail!("{} {first}: {status}", shown(Path::new(&program)));
+    }
+    Ok(())
+}

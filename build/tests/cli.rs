@@ -81,12 +81,12 @@ fn outdated_description_is_refused_with_line_and_remedy() {
     let file = directory.path().join("modelDescription.xml");
     let path = file.to_str().unwrap();
     assert!(ahv(&["describe", "--file", path]).ok);
-    let edited = fs::read_to_string(&file).unwrap().replacen("\"Airspeed\"", "\"Speed\"", 1);
+    let edited = fs::read_to_string(&file).unwrap().replacen("\"Pitch rate\"", "\"Pitching\"", 1);
     fs::write(&file, edited).unwrap();
     let check = ahv(&["describe", "--check", "--file", path]);
     assert!(!check.ok);
     assert!(check.err.contains("run `cargo ahv describe`"), "{}", check.err);
-    assert!(check.err.contains("description=\"Speed\""), "{}", check.err);
+    assert!(check.err.contains("description=\"Pitching\""), "{}", check.err);
 }
 
 #[test]

@@ -1,6 +1,11 @@
 //! Inputs between communication points: polynomials in time.
 
-use crate::dynamics::{Control, INPUTS};
+use crate::dynamics::{CONTROLS, Control};
+
+/// Controls, then the gust.
+pub const INPUTS: usize = CONTROLS + 1;
+/// Number of the gust among the inputs.
+pub const GUST: usize = CONTROLS;
 
 /// Highest derivative of an input that a master can give.
 pub const INPUT_ORDER: usize = 3;
@@ -8,10 +13,10 @@ pub const INPUT_ORDER: usize = 3;
 /// Inputs at the present instant and how they go on within the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs {
-    /// Present values: elevator (rad), fuel ratio.
-    pub values: Control,
+    /// Present values: elevator (rad), fuel ratio, gust (m/s).
+    pub values: [f64; INPUTS],
     /// Their first, second and third derivative, 1/s, 1/s^2, 1/s^3.
-    pub derivatives: [Control; INPUT_ORDER],
+    pub derivatives: [[f64; INPUTS]; INPUT_ORDER],
     /// Whether the derivatives are for the next step. After it they only tell how the inputs moved
     /// until now.
     pub ahead: bool,
@@ -39,6 +44,12 @@ impl Inputs {
         self.derivatives[order - 1][index] = value;
     }
 
+    /// The controls and the gust among the inputs.
+    pub fn split(inputs: &[f64; INPUTS]) -> (Control, f64) {
+        let [delta_e, phi, gust] = *inputs;
+        ([delta_e, phi], gust)
+    }
+
     /// Whether they change within the next step.
     pub fn moving(&self) -> bool {
         self.ahead && self.derivatives != Self::ZERO.derivatives
@@ -46,7 +57,7 @@ impl Inputs {
 
     /// Values after a time (s) of the next step.
     #[inline]
-    pub fn at(&self, t: f64) -> Control {
+    pub fn at(&self, t: f64) -> [f64; INPUTS] {
         let [first, second, third] = &self.derivatives;
         std::array::from_fn(|i| {
             self.values[i] + t * (first[i] + t / 2.0 * (second[i] + t / 3.0 * third[i]))

@@ -1,7 +1,7 @@
 //! Derivatives of everything that a flight shows, exact by dual numbers.
 
-use super::{Flight, Sample};
-use crate::dynamics::{Control, State};
+use super::{Flight, INPUTS, Inputs, Sample};
+use crate::dynamics::State;
 use crate::error::Error;
 use crate::scalar::Dual;
 
@@ -14,7 +14,7 @@ impl Flight {
     ///
     /// # Errors
     /// Those of [`Flight::initialise`], if the flight is not initialised yet.
-    pub fn tangent(&mut self, change: &State, input_change: &Control) -> Result<Self, Error> {
+    pub fn tangent(&mut self, change: &State, input_change: &[f64; INPUTS]) -> Result<Self, Error> {
         self.initialise()?;
         let mut tangent = self.clone();
         tangent.state = *change;
@@ -22,18 +22,21 @@ impl Flight {
         tangent.slope = None;
         tangent.sample = self.ready.as_ref().map(|ready| {
             let vehicle = &ready.vehicle;
-            let (base, control) = (self.base(ready), self.control(ready));
+            let (base, (control, gust)) = (self.base(ready), self.control(ready));
+            let (moved, gust_change) = Inputs::split(input_change);
             let control_change = std::array::from_fn(|i| {
                 let [min, max] = vehicle.ranges()[i];
                 let wanted = base[i] + self.inputs.values[i];
-                if (min..=max).contains(&wanted) { input_change[i] } else { 0.0 }
+                if (min..=max).contains(&wanted) { moved[i] } else { 0.0 }
             });
             let x = std::array::from_fn(|i| Dual { re: self.state[i], eps: [change[i]] });
             let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
+            let w = Dual { re: gust, eps: [gust_change] };
             let along = |dual: Dual<1>| dual.eps[0];
+            let (derivatives, outputs) = vehicle.both(&x, &u, w);
             Sample {
-                outputs: vehicle.outputs(&x, &u).map(along),
-                derivatives: vehicle.derivatives(&x, &u).map(along),
+                outputs: outputs.map(along),
+                derivatives: derivatives.map(along),
                 control: control_change,
             }
         });

@@ -15,15 +15,15 @@
 //! | 8 each | inputs and parameters by row |
 //! | 8 | FNV-1a of all before |
 
-use crate::dynamics::{INPUTS, STATES};
-use crate::flight::{Flight, INPUT_ORDER, Snapshot};
+use crate::dynamics::STATES;
+use crate::flight::{Flight, INPUT_ORDER, INPUTS, Snapshot};
 use crate::fmi::failure::Failure;
 use crate::fmi::instance::{Life, TOLERANCES};
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::variables::{MODEL_HASH, TABLE, Variable};
 
 const MAGIC: [u8; 8] = *b"AHVSTATE";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const HEADER: usize = 8 + 4 + 4 + 16;
 const CHECKSUM: usize = 8;
 /// Stop time, time, tolerance, step proposal.

@@ -1,7 +1,7 @@
 //! Reading and setting variables: a call with several references does all or nothing.
 
-use crate::dynamics::{Control, INPUTS, STATES, State};
-use crate::flight::INPUT_ORDER;
+use crate::dynamics::{STATES, State};
+use crate::flight::{INPUT_ORDER, INPUTS};
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Phase;
@@ -191,7 +191,7 @@ impl Instance {
         &mut self,
         unknowns: &[u32],
         state: &State,
-        input: &Control,
+        input: &[f64; INPUTS],
         mut write: impl FnMut(usize, f64),
     ) -> Outcome {
         if unknowns.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
-use crate::aero::{Aero, Elastic};
+use crate::aero::{Aero, Elastic, ElasticTerm};
 use crate::beam::Beam;
 use crate::gas::GasError;
 use crate::modes::Modes;
@@ -36,8 +36,8 @@ impl ShockExpansion {
                 let at = |step: f64| self.loads(ahead, attitude, &|x| step * incidence(x));
                 let (up, down) = (at(STEP)?, at(-STEP)?);
                 let change = |f: &dyn Fn(&AirLoads) -> f64| (f(&up) - f(&down)) * per_step;
-                let pick = |term: &mut crate::aero::ElasticTerm, value: f64| {
-                    if which == 0 { term.eta[k] = value } else { term.rate[k] = value }
+                let pick = |term: &mut ElasticTerm, value: f64| {
+                    term.per[k][which] = value;
                 };
                 pick(&mut elastic.lift, change(&AirLoads::lift));
                 pick(&mut elastic.drag, change(&AirLoads::drag));
@@ -62,14 +62,15 @@ pub const COMPARED: [&str; 6] =
 /// first `modes`; rows as in [`COMPARED`].
 pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
     let terms = |elastic: &Elastic| {
-        let (mut eta, mut rate) = (Vec::new(), Vec::new());
-        for force in &elastic.force[..modes] {
-            eta.extend_from_slice(&force.elastic.eta[..modes]);
-            rate.extend_from_slice(&force.elastic.rate[..modes]);
-        }
-        let of = |term: &[f64]| term[..modes].to_vec();
-        let (lift, moment) = (&elastic.lift, &elastic.moment);
-        [of(&lift.eta), of(&moment.eta), eta, of(&lift.rate), of(&moment.rate), rate]
+        let of = |terms: &mut dyn Iterator<Item = &ElasticTerm>, which: usize| -> Vec<f64> {
+            terms.flat_map(|term| term.per[..modes].iter().map(|per| per[which])).collect()
+        };
+        let row = |number: usize| match number % 3 {
+            0 => of(&mut [&elastic.lift].into_iter(), number / 3),
+            1 => of(&mut [&elastic.moment].into_iter(), number / 3),
+            _ => of(&mut elastic.force[..modes].iter().map(|force| &force.elastic), number / 3),
+        };
+        std::array::from_fn::<_, 6, _>(row)
     };
     let (all, others) = (terms(elastic), terms(other));
     std::array::from_fn(|row| {

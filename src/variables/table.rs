@@ -49,11 +49,14 @@ const ALPHA: u32 = 1 << 3;
 const Q: u32 = 1 << 4;
 const DELTA_E: u32 = 1 << STATES;
 const PHI: u32 = 1 << (STATES + 1);
+const GUST: u32 = 1 << (STATES + 2);
 const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
+/// Speed and incidence relative to moving air.
+const STREAM: u32 = V | GAMMA | ALPHA | GUST;
 /// What the aerodynamic forces depend on; on the fuel through the plume under the aft-body.
-const AERODYNAMIC: u32 = V | H | ALPHA | ELASTIC | DELTA_E | PHI;
+const AERODYNAMIC: u32 = STREAM | H | ELASTIC | DELTA_E | PHI;
 
 const ROW: Variable = Variable {
     name: "",
@@ -194,26 +197,26 @@ const INPUT_MODE: Kind = Kind::Enumeration(
 
 /// All variables.
 #[rustfmt::skip]
-pub static TABLE: [Variable; 67] = [
+pub static TABLE: [Variable; 68] = [
     input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
     input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
-    output_state(0, "V", SPEED, "Airspeed", |f| f.state()[0]),
+    output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
     output_state(2, "gamma", ANGLE, "Flight-path angle", |f| f.state()[2]),
     output_state(5, "eta1", METRE, "First flexible mode, as nose deflection, up positive", |f| f.state()[5]),
     output_state(7, "eta2", METRE, "Second flexible mode, as nose deflection, up positive", |f| f.state()[7]),
     output_state(9, "eta3", METRE, "Third flexible mode, as nose deflection, up positive", |f| f.state()[9]),
     output_state(1, "h", METRE, "Altitude", |f| f.state()[1]),
-    output_state(3, "alpha", ANGLE, "Angle of attack", |f| f.state()[3]),
+    output_state(3, "alpha", ANGLE, "Angle of attack; in a gust against the flight path", |f| f.state()[3]),
     output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
     output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
     output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[0])),
     output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
-    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(V | H | ALPHA | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
+    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(STREAM | H | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
     output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.moment)),
-    output("mach", ONE, "Mach number", dependent(V | H), |f| shown(f, |s| s.outputs.loads.mach)),
-    output("qbar", PRESSURE, "Dynamic pressure", dependent(V | H), |f| shown(f, |s| s.outputs.loads.qbar)),
+    output("mach", ONE, "Mach number", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.mach)),
+    output("qbar", PRESSURE, "Dynamic pressure", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.qbar)),
     output("n_z", ONE, "Normal load factor at the mass centre, in g", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.n_z)),
     output("delta_e_effective", ANGLE, "Elevator deflection in effect, absolute, after saturation", dependent(DELTA_E), |f| shown(f, |s| s.control[0])),
     output("phi_effective", ONE, "Fuel equivalence ratio in effect, absolute, after saturation", dependent(PHI), |f| shown(f, |s| s.control[1])),
@@ -247,10 +250,10 @@ pub static TABLE: [Variable; 67] = [
     local_state(12, "eta_slosh1_dot", SPEED, "Rate of the first slosh mode", |f| f.state()[12]),
     local_state(13, "eta_slosh2", METRE, "Second slosh mode, as the larger displacement of a sloshing mass", |f| f.state()[13]),
     local_state(14, "eta_slosh2_dot", SPEED, "Rate of the second slosh mode", |f| f.state()[14]),
-    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 0)),
+    derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 0)),
     derivative(1, "der(h)", SPEED, dependent(V | GAMMA), |f| rate(f, 1)),
-    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC | GAMMA), |f| rate(f, 2)),
-    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC | GAMMA) }, |f| rate(f, 3)),
+    derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC), |f| rate(f, 2)),
+    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC) }, |f| rate(f, 3)),
     derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 4)),
     derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
     derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
@@ -262,6 +265,7 @@ pub static TABLE: [Variable; 67] = [
     derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
+    Variable { range: Some([-200.0, 200.0]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {

@@ -30,6 +30,7 @@ def reals(names: str, causality: str, variability: str, unit: str) -> list[Entry
 CONTRACT = [
     *reals("delta_e", "input", "continuous", "rad"),
     *reals("phi", "input", "continuous", "1"),
+    *reals("w_gust", "input", "continuous", "m/s"),
     *reals("V", "output", "continuous", "m/s"),
     *reals("gamma alpha theta delta_e_effective", "output", "continuous", "rad"),
     *reals("eta1 eta2 eta3 h slosh1 slosh2", "output", "continuous", "m"),
@@ -94,7 +95,7 @@ COMPLETE = ("configuration", "input_mode")
 
 START = {
     **{"delta_e": 0.0, "phi": 0.0, "configuration": 3, "aero": 1, "input_mode": 1, "trim": True},
-    **{"fuel_fraction": 1.0, "slosh_damping": 0.05, "slosh_frequency": 0.0},
+    **{"w_gust": 0.0, "fuel_fraction": 1.0, "slosh_damping": 0.05, "slosh_frequency": 0.0},
     **{"mach0": 8.0, "altitude0": 25900.0, "gamma0": 0.0},
 }
 EXPERIMENT = {"startTime": 0.0, "stopTime": 2.0, "stepSize": 0.01, "tolerance": 1e-8}

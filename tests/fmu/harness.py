@@ -38,7 +38,8 @@ STATES = (
     *("eta_slosh1", "eta_slosh1_dot", "eta_slosh2", "eta_slosh2_dot"),
 )
 DERIVATIVES = tuple(f"der({name})" for name in STATES)
-INPUTS = ("delta_e", "phi")
+CONTROLS = ("delta_e", "phi")
+INPUTS = (*CONTROLS, "w_gust")
 # Outputs that are no states: our name, the oracle's name.
 OUTPUTS = {
     **{name: name for name in ("theta", "lift", "drag", "thrust", "moment", "mach", "qbar", "n_z")},
@@ -226,11 +227,14 @@ class Instance:
         inputs: Callable[[int], Sequence[float]] | None = None,
         names: Sequence[str] = EVERYTHING,
     ) -> np.ndarray:
-        """Values of `names` before the first step and after each; inputs(k) is held in step k."""
+        """Values of `names` before the first step and after each; inputs(k) is held in step k.
+
+        It gives the controls, and the gust if it likes.
+        """
         rows = []
         for k in range(steps):
             if inputs is not None:
-                self.set(**dict(zip(INPUTS, map(float, inputs(k)), strict=True)))
+                self.set(**dict(zip(INPUTS, map(float, inputs(k)), strict=False)))
             if k == 0:
                 rows.append(self.get(*names))
             self.step(step)

@@ -13,7 +13,17 @@ import numpy as np
 import pytest
 from fmpy.fmi2 import fmi2Boolean, fmi2Integer, fmi2Real, fmi2String, fmi2ValueReference
 
-from harness import DISCARD, ERROR, EVERYTHING, OK, STATES, Instance, Package, Refused
+from harness import (
+    DISCARD,
+    ERROR,
+    EVERYTHING,
+    INPUTS,
+    OK,
+    STATES,
+    Instance,
+    Package,
+    Refused,
+)
 
 HERE = Path(__file__).parent
 C_TYPES = {
@@ -108,7 +118,7 @@ def test_verif_start_outside_the_envelope_is_refused(
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf], ids=str)
-@pytest.mark.parametrize("name", ["delta_e", "phi"])
+@pytest.mark.parametrize("name", INPUTS)
 def test_verif_input_that_is_no_number_is_refused(
     package: Package, name: str, value: float
 ) -> None:
@@ -138,6 +148,7 @@ def test_verif_vector_with_one_bad_value_changes_nothing(package: Package) -> No
 @pytest.mark.parametrize(
     ("name", "value"),
     [
+        ("w_gust", 201.0),
         ("fuel_fraction", 1.5),
         ("fuel_fraction", -0.1),
         ("fuel_fraction", math.nan),

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from harness import INPUTS, OUTPUTS, STATES, Package
+from harness import CONTROLS, OUTPUTS, STATES, Package
 
 NAMES = (*STATES, *OUTPUTS, "delta_e_effective", "phi_effective")
 STEP_NS, STEPS = 10_000_000, 100
@@ -55,7 +55,7 @@ def libcosim(package: Package, start: dict[str, float]) -> np.ndarray:
         assert execution.real_initial_value(index, reference, value), name
     rows = []
     for k in range(STEPS):
-        assert manipulator.slave_real_values(index, references(package, INPUTS), doublet(k))
+        assert manipulator.slave_real_values(index, references(package, CONTROLS), doublet(k))
         assert execution.step()
         rows.append(observer.last_real_values(index, references(package, NAMES)))
     assert execution.status().current_time == STEPS * STEP_NS
@@ -74,7 +74,7 @@ def ecos(package: Package, start: dict[str, float]) -> np.ndarray:
     assert simulation.init(parameter_set="start")
     rows = []
     for k in range(STEPS):
-        for name, value in zip(INPUTS, doublet(k), strict=True):
+        for name, value in zip(CONTROLS, doublet(k), strict=True):
             simulation.set_real(f"ahv::{name}", value)
         simulation.step()
         rows.append([simulation.get_real(f"ahv::{name}") for name in NAMES])

@@ -44,9 +44,16 @@ def throttle(step: int) -> tuple[float, float]:
     return 0.0, 0.05 if step >= 10 else 0.0
 
 
-def both(step: int) -> tuple[float, float]:
-    """Something on both inputs in every step, without a pattern."""
-    return 0.01 * np.sin(1.7 * step**1.3), 0.1 * np.cos(2.3 * step**1.2)
+def gust(step: int) -> tuple[float, float, float]:
+    """1 - cosine, 5 m/s upwards, 0.3 s long."""
+    phase = np.clip((step - 10) / 30, 0.0, 1.0)
+    return 0.0, 0.0, 2.5 * (1.0 - np.cos(2.0 * np.pi * phase))
+
+
+def all_inputs(step: int) -> tuple[float, float, float]:
+    """Something on all inputs in every step, without a pattern."""
+    one, two, three = 1.7 * step**1.3, 2.3 * step**1.2, 1.9 * step**1.1
+    return 0.01 * np.sin(one), 0.1 * np.cos(two), 20.0 * np.sin(three)
 
 
 def columns(vehicle: Vehicle, states: np.ndarray, outputs: dict) -> np.ndarray:
@@ -67,7 +74,7 @@ def assert_equal_flights(ours: np.ndarray, theirs: np.ndarray, limit: float) -> 
 
 
 @pytest.mark.parametrize("tolerance", RUN, ids=["default", "tight"])
-@pytest.mark.parametrize("manoeuvre", [doublet, throttle], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("manoeuvre", [doublet, throttle, gust], ids=lambda f: f.__name__)
 @pytest.mark.parametrize("aero", AERO_SETS)
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)
 def test_verif_run_equals_the_oracle(
@@ -110,9 +117,9 @@ def test_verif_rates_and_outputs_equal_the_oracle_at_every_state(
     """Equations (3) and (4) themselves: no integrator in between, all states away from trim."""
     oracle = vehicle(configuration=configuration, aero=aero)
     active = ACTIVE_STATES[configuration]
-    names = (*STATES, "delta_e_effective", "phi_effective", *DERIVATIVES, *OUTPUTS)
+    names = (*STATES, "delta_e_effective", "phi_effective", "w_gust", *DERIVATIVES, *OUTPUTS)
     with package.flight(configuration=configuration, aero=aero) as flight:
-        table = flight.fly(40, 0.02, both, names)
+        table = flight.fly(40, 0.02, all_inputs, names)
     count = len(STATES)
     theirs = []
     for row in table:
@@ -134,4 +141,4 @@ def test_verif_states_of_missing_parts_stay_zero(package: Package, configuration
     missing = [*STATES[ACTIVE_STATES[configuration] :], "slosh1", "slosh2"]
     rates = [f"der({name})" for name in missing[:-2]]
     with package.flight(configuration=configuration) as flight:
-        assert not flight.fly(20, STEP, both, [*missing, *rates]).any()
+        assert not flight.fly(20, STEP, all_inputs, [*missing, *rates]).any()

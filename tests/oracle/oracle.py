@@ -115,9 +115,19 @@ class Vehicle:
         weight = np.array([tank.slosh_mass * self.g_eff for tank in self.beam.tanks])
         return weight @ self.rel[: len(weight)] / self.modal_mass
 
+    @staticmethod
+    def stream(x: np.ndarray, u: np.ndarray) -> tuple[Any, Any]:
+        """Speed through the air in m/s, and the angle of that path above the horizon in rad."""
+        ahead, up = x[0] * np.cos(x[2]), x[0] * np.sin(x[2]) - sum(u[2:])
+        return np.sqrt(ahead**2 + up**2), np.arctan(up / ahead)
+
     def forces(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:
-        """Lift, drag, thrust N/m, moment N, modal forces N/m of eq. (4), qbar Pa and Mach."""
-        v, alpha, q = x[0], x[3], x[4]
+        """Lift, drag, thrust N/m, moment N, modal forces N/m of eq. (4), qbar Pa and Mach.
+
+        Lift and drag across and along the path through the air.
+        """
+        (v, path), q = self.stream(x, u), x[4]
+        alpha = x[2] + x[3] - path
         eta, rate = x[5::2], x[6::2] / v
         ref, e = self.aero["reference"], self.elastic
         density, sound = atmosphere(self.earth, x[1])
@@ -140,6 +150,7 @@ class Vehicle:
         modal = modal + e.n_eta @ eta + e.n_rate @ rate + e.n_q * (q / v)
         engine = load * c_t * (e.lifted * np.sin(alpha) + e.turned)
         return {
+            "alpha": alpha,
             "lift": load * c_l,
             "drag": load * c_d,
             "thrust": load * c_t,
@@ -150,14 +161,22 @@ class Vehicle:
         }
 
     def rhs(self, t: float, x: np.ndarray, u: np.ndarray) -> np.ndarray:
-        """State derivative, eq. (3); u = effective (delta_e rad, phi). Complex-step safe."""
+        """State derivative, eq. (3); complex-step safe.
+
+        u = effective (delta_e rad, phi), and the vertical velocity of the air in m/s if it moves.
+        """
         v, h, gamma, alpha, q = x[:5]
         f, g = self.forces(x, u), gravity(self.earth, h)
         eta, rate = x[5::2], x[6::2]
-        turn = (f["lift"] + f["thrust"] * np.sin(alpha)) / (self.mass * v)
+        _, path = self.stream(x, u)
+        ahead = -f["drag"] * np.cos(path) - f["lift"] * np.sin(path)
+        up = f["lift"] * np.cos(path) - f["drag"] * np.sin(path)
+        lift = up * np.cos(gamma) - ahead * np.sin(gamma)
+        drag = -ahead * np.cos(gamma) - up * np.sin(gamma)
+        turn = (lift + f["thrust"] * np.sin(alpha)) / (self.mass * v)
         turn = turn - (g / v - v / (self.earth["earth"]["radius_m"] + h)) * np.cos(gamma)
         dx = np.empty(self.states, dtype=np.result_type(x, u, float))
-        dx[0] = (f["thrust"] * np.cos(alpha) - f["drag"]) / self.mass - g * np.sin(gamma)
+        dx[0] = (f["thrust"] * np.cos(alpha) - drag) / self.mass - g * np.sin(gamma)
         dx[1], dx[2], dx[3], dx[4] = v * np.sin(gamma), turn, q - turn, f["moment"] / self.i_yy
         dx[5::2] = rate
         modal = f["modal"] / self.modal_mass + self.floor
@@ -168,9 +187,9 @@ class Vehicle:
         """Outputs at one state: theta rad, slosh m, forces N/m, moment N, mach, qbar Pa, n_z."""
         f = self.forces(x, u)
         slosh = self.rel @ x[5::2]
-        normal = f["lift"] * np.cos(x[3]) + f["drag"] * np.sin(x[3])
+        normal = f["lift"] * np.cos(f["alpha"]) + f["drag"] * np.sin(f["alpha"])
         weight = self.mass * self.earth["earth"]["gravity_m_per_s2"]
-        kept = {key: value for key, value in f.items() if key != "modal"}
+        kept = {key: value for key, value in f.items() if key not in ("modal", "alpha")}
         return kept | {
             "theta": x[3] + x[2],
             "slosh_1": slosh[0],
@@ -227,10 +246,10 @@ class Vehicle:
         return found[np.lexsort((found.imag, -found.real))]
 
     def effective(self, u: Sequence[float], absolute: bool = False) -> np.ndarray:
-        """Effective (delta_e, phi): trim + input, or the input itself, clipped to the limits."""
+        """Effective (delta_e, phi): trim + input, or the input itself, clipped; then any gust."""
         limit, top = (self.data["actuation"][k] for k in ("delta_e_limit_rad", "phi_limit"))
-        asked = np.asarray(u, dtype=float) + (0.0 if absolute else self.trim()[1])
-        return np.clip(asked, [-limit, 0.0], [limit, top])
+        asked = np.asarray(u[:2], dtype=float) + (0.0 if absolute else self.trim()[1])
+        return np.append(np.clip(asked, [-limit, 0.0], [limit, top]), u[2:])
 
     def simulate(
         self,

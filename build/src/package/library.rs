@@ -1,0 +1,99 @@
+//! Compiles the library for a platform.
+
+use super::binary::GLIBC;
+use super::platform::{HOST, LINUX, Platform};
+use crate::describe::MODEL_IDENTIFIER;
+use crate::python::{Environment, environment};
+use crate::workspace::{cargo, root, target};
+use anyhow::{Context, Result, anyhow, bail};
+use std::ffi::OsString;
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+/// The library for this machine, linked as Cargo does: it needs the C library of this machine.
+pub fn for_host() -> Result<PathBuf> {
+    let mut command = cargo();
+    command.arg("build");
+    compile(command, HOST, "host")
+}
+
+/// The linker of zig, which knows the interfaces of all glibc versions.
+pub fn zig() -> Result<Environment> {
+    environment("zig", &root().join("build/zig/requirements.lock"))
+}
+
+/// The library for Linux, linked against the interface of an old C library: it runs with glibc
+/// 2.17 and newer.
+pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
+    let caches = target().join("fmu/zig");
+    let mut command = Command::new(zig.programs.join("cargo-zigbuild"));
+    command
+        .current_dir(root())
+        .args(["zigbuild", "--target", &format!("{}.{}.{}", LINUX.triple, GLIBC.0, GLIBC.1)])
+        .env("CARGO_ZIGBUILD_PYTHON_PATH", &zig.python)
+        .env("CARGO_ZIGBUILD_CACHE_DIR", caches.join("zigbuild"))
+        .env("ZIG_GLOBAL_CACHE_DIR", caches.join("global"))
+        .env("ZIG_LOCAL_CACHE_DIR", caches.join("local"));
+    compile(command, LINUX, LINUX.name)
+}
+
+/// Runs a `cargo build` with our options; where Cargo put the library.
+///
+/// Every kind of build has a target directory of its own, because their compilers and flags
+/// differ, and would otherwise overwrite each other.
+fn compile(mut command: Command, platform: Platform, directory: &str) -> Result<PathBuf> {
+    command
+        .args(["--quiet", "--release", "--package", "ahv-fmu", "--lib"])
+        .args(["--config", "profile.release.strip='symbols'"])
+        .arg("--message-format=json-render-diagnostics")
+        .arg("--target-dir")
+        .arg(target().join("fmu").join(directory))
+        .env("CARGO_ENCODED_RUSTFLAGS", rustflags())
+        .stderr(Stdio::inherit());
+    let output = command
+        .output()
+        .with_context(|| format!("cannot start {}", command.get_program().display()))?;
+    if !output.status.success() {
+        bail!("the library for {} does not build: see the messages above", platform.name);
+    }
+    String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|message| message["reason"] == "compiler-artifact")
+        .filter_map(|message| message["filenames"].as_array().cloned())
+        .flatten()
+        .filter_map(|file| file.as_str().map(PathBuf::from))
+        .find(|file| {
+            file.extension().is_some_and(|ending| ending == platform.ending)
+                && file.file_stem().is_some_and(|stem| {
+                    stem.to_string_lossy().trim_start_matches("lib") == MODEL_IDENTIFIER
+                })
+        })
+        .ok_or_else(|| anyhow!("cargo did not say where the library ahv.{} is", platform.ending))
+}
+
+/// Flags that keep the builder's directories out of the library: panic messages name source files.
+fn rustflags() -> OsString {
+    let home = std::env::var_os("CARGO_HOME")
+        .map(PathBuf::from)
+        .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    let mut prefixes =
+        vec![(root().to_path_buf(), MODEL_IDENTIFIER), (target().join("fmu"), "target")];
+    let registries = home.and_then(|home| fs::read_dir(home.join("registry/src")).ok());
+    let directories = registries.into_iter().flatten().flatten();
+    prefixes.extend(directories.map(|directory| (directory.path(), "crates")));
+    // Of several prefixes that fit, the compiler takes the last.
+    prefixes.sort();
+    let mut flags =
+        OsString::from(std::env::var("RUSTFLAGS").unwrap_or_default().replace(' ', "\x1f"));
+    for (path, name) in prefixes {
+        if !flags.is_empty() {
+            flags.push("\x1f");
+        }
+        flags.push("--remap-path-prefix=");
+        flags.push(path);
+        flags.push(format!("={name}"));
+    }
+    flags
+}

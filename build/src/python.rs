@@ -1,0 +1,39 @@
+//! Python programs with exactly the locked packages.
+
+use crate::workspace::{check, read, shown, target, write};
+use anyhow::{Context, Result};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A virtual environment in the target directory.
+pub struct Environment {
+    /// Where its programs are.
+    pub programs: PathBuf,
+    pub python: PathBuf,
+}
+
+/// The environment `name` with the packages of a lock file; made if it is not there yet.
+///
+/// A copy of the lock, written last, says that the environment is complete.
+pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
+    let wanted = read(lock)?;
+    let directory = target().join(name);
+    let stamp = directory.join("requirements.lock");
+    let programs = directory.join(if cfg!(windows) { "Scripts" } else { "bin" });
+    let python = programs.join(if cfg!(windows) { "python.exe" } else { "python" });
+    if stamp.exists() && python.exists() && read(&stamp)? == wanted {
+        return Ok(Environment { programs, python });
+    }
+    eprintln!("making {} from {}", shown(&directory), shown(lock));
+    check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))
+        .context("a virtual environment needs Python; on Debian: apt-get install python3-venv")?;
+    check(
+        Command::new(&python)
+            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"])
+            .args(["--require-hashes", "--requirement"])
+            .arg(lock),
+    )
+    .with_context(|| format!("cannot install the packages of {}", shown(lock)))?;
+    write(&stamp, wanted)?;
+    Ok(Environment { programs, python })
+}
