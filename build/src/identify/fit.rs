@@ -7,9 +7,10 @@ use std::thread;
 
 /// Central differences: the truncation error of a smooth residual is then below 1e-9.
 const STEP: f64 = 1e-5;
+/// When a search ends: with a step below the first, or after so many steps.
+pub type End = (f64, usize);
 /// A step this small changes no digit that is written.
-pub const CONVERGED: f64 = 1e-9;
-const MAX_STEPS: usize = 200;
+pub const CONVERGED: End = (1e-9, 200);
 /// Damping of the first step, and how it changes after a success and a failure.
 const DAMPING: f64 = 1e-3;
 const RELAX: f64 = 0.2;
@@ -84,19 +85,18 @@ pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Opt
     Some(DMatrix::from_columns(&columns))
 }
 
-/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay. Ends with a step below
-/// `converged`.
+/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay.
 pub fn minimise(
     residual: &Residual,
     start: &DVector<f64>,
     held: &[bool],
     weight: f64,
-    converged: f64,
+    (converged, steps): End,
 ) -> Result<Fit> {
     let mut fit = Fit::at(residual, start.clone(), held, weight, f64::INFINITY)
         .ok_or_else(|| anyhow!("the model has no answer where the identification starts"))?;
     let mut damping = DAMPING;
-    for _ in 0..MAX_STEPS {
+    for _ in 0..steps {
         let Fit { point, residual: r, jacobian: j } = &fit;
         let normal = j.tr_mul(j);
         let slope = j.tr_mul(r) + point * weight;

@@ -1,7 +1,7 @@
 //! The trade-off between misfit and distance, and its knee.
 
 use super::cells::{COLUMNS, Cell, cells, values};
-use super::fit::{CONVERGED, Fit, jacobian, minimise};
+use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin};
 use ahv::dynamics::Vehicle;
 use ahv::parameters::Parameters;
@@ -15,8 +15,9 @@ use nalgebra::{DMatrix, DVector};
 const FIRST_WEIGHT: f64 = 1e4;
 const LAST_WEIGHT: f64 = 1e-2;
 const STEPS_PER_DECADE: i32 = 4;
-/// A step that ends the search beyond the knee: what is found there is shown, and not used.
-const SHOWN: f64 = 1e-4;
+/// The end of a search beyond the knee: what is found there is shown, and not used. A long walk
+/// from one valley to the next goes on at the next weight.
+const SHOWN: End = (1e-4, 40);
 /// A number that would move by less stays where it is.
 const STAYS: f64 = 0.01;
 /// Part of its range, about the middle, that a trimmed control or incidence may use freely, and
@@ -126,14 +127,8 @@ impl Model {
         Some(DVector::from_iterator(scaled.clone().count() + room.len(), scaled.chain(room)))
     }
 
-    fn fit(
-        &self,
-        start: &DVector<f64>,
-        held: &[bool],
-        weight: f64,
-        converged: f64,
-    ) -> Result<Point> {
-        let fit = minimise(&|point| self.residual(point), start, held, weight, converged)
+    fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64, end: End) -> Result<Point> {
+        let fit = minimise(&|point| self.residual(point), start, held, weight, end)
             .with_context(|| format!("weight {weight:.1e}"))?;
         Ok(Point { weight, fit })
     }
@@ -146,8 +141,8 @@ impl Model {
         let mut path: Vec<Point> = Vec::new();
         for step in 0..=decades * STEPS_PER_DECADE {
             let weight = FIRST_WEIGHT * 10f64.powf(-f64::from(step) / f64::from(STEPS_PER_DECADE));
-            let converged = if knee(&path).is_none() { CONVERGED } else { SHOWN };
-            let point = self.fit(&start, &[false; MOVABLE.len()], weight, converged)?;
+            let end = if knee(&path).is_none() { CONVERGED } else { SHOWN };
+            let point = self.fit(&start, &[false; MOVABLE.len()], weight, end)?;
             start.copy_from(&point.fit.point);
             tell(&point);
             path.push(point);

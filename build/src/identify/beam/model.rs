@@ -3,7 +3,7 @@
 
 use super::numbers::{CENTRES, COORDINATES, Prior, rounded};
 use crate::identify::cells::{short_period, size};
-use crate::identify::fit::{Fit, minimise};
+use crate::identify::fit::{End, Fit, minimise};
 use crate::published::Published;
 use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
@@ -27,8 +27,8 @@ pub const DOUBT: [f64; DATA] = [0.005, 0.005, 0.005, 0.005, 0.005, 0.005, 0.01];
 /// Weights of the prior against that: first it holds all, at last it is worth what it says.
 const WEIGHTS: [f64; 4] = [1e6, 1e4, 1e2, 1.0];
 /// Steps that end the search on the way, and at its end: far below the digits that are written.
-const NEAR: f64 = 1e-2;
-const CONVERGED: f64 = 1e-7;
+const NEAR: End = (1e-2, 200);
+const CONVERGED: End = (1e-7, 200);
 
 /// What is printed: Table 1, rad/s, and by which factor the short period of Table 2 grows from even
 /// to sloshing mass, geometric means of its two poles. No other number of the paper depends on where
@@ -129,14 +129,8 @@ impl Model {
         Ok(Solution { fit, vehicle })
     }
 
-    fn minimise(
-        &self,
-        start: &DVector<f64>,
-        held: &[bool],
-        weight: f64,
-        converged: f64,
-    ) -> Result<Fit> {
-        minimise(&|point| self.residual(point), start, held, weight, converged)
+    fn minimise(&self, start: &DVector<f64>, held: &[bool], weight: f64, end: End) -> Result<Fit> {
+        minimise(&|point| self.residual(point), start, held, weight, end)
             .with_context(|| format!("weight {weight:.0e}"))
     }
 }

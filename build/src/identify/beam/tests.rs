@@ -31,7 +31,7 @@ fn seven_numbers_come_back_from_seven_facts() {
     let held: Vec<_> = (0..COORDINATES).map(|i| !FREE.contains(&i)).collect();
     let mut point = DVector::zeros(COORDINATES);
     for weight in [1e6, 1e4, 1e2, 1.0, 1e-4] {
-        let fit = minimise(&|p| model.residual(p), &point, &held, weight, 1e-7).unwrap();
+        let fit = minimise(&|p| model.residual(p), &point, &held, weight, (1e-7, 200)).unwrap();
         point = fit.point;
     }
     assert!((&point - &truth).amax() < 1e-4, "{point} is not {truth}");
