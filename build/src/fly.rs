@@ -30,7 +30,11 @@ struct Flown {
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None => package::build()?,
+        None => {
+            let file = package::default_output();
+            package::build(&file, false)?;
+            file
+        }
     };
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;
