@@ -2,6 +2,7 @@
 
 mod archive;
 mod binary;
+mod cross_check;
 mod icon;
 mod library;
 mod platform;
@@ -18,6 +19,7 @@ use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 /// Libraries for an FMU.
 #[derive(Default)]
@@ -33,7 +35,7 @@ pub fn run(options: &Package) -> Result<()> {
         return build(&output, options.all_targets);
     }
     let given = options.library.iter().map(|text| platform::given(text));
-    package(&given.collect::<Result<Vec<_>>>()?, &output)
+    write_fmu(contents(&given.collect::<Result<Vec<_>>>()?)?, &output)
 }
 
 /// Builds and packages for every platform that this machine can build for. If all are
@@ -43,7 +45,11 @@ pub fn build(output: &Path, all_targets: bool) -> Result<()> {
     if all_targets && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
-    package(&libraries.found, output)?;
+    let mut files = contents(&libraries.found)?;
+    for (name, content) in reference(&files)? {
+        files.insert(format!("documentation/cross-check/{name}"), content);
+    }
+    write_fmu(files, output)?;
     for (platform, library) in &libraries.found {
         let binary = Binary::parse(&read(library)?)?;
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
@@ -72,6 +78,10 @@ impl Libraries {
         let mut libraries = Self::default();
         if HOST != LINUX {
             libraries.found.push((HOST, library::for_host()?));
+            libraries.missing.push(format!(
+                "only {} is in it: the FMU for Linux and Windows is built on Linux",
+                HOST.name
+            ));
             return Ok(libraries);
         }
         match library::zig() {
@@ -103,9 +113,11 @@ impl Libraries {
     }
 }
 
-/// Writes the FMU and says what it is.
-fn package(libraries: &[(Platform, PathBuf)], output: &Path) -> Result<()> {
-    let mut files = BTreeMap::new();
+/// Files of the FMU by their names.
+type Files = BTreeMap<String, Vec<u8>>;
+
+fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
+    let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.insert("documentation/index.html".to_string(), documentation::html()?.into_bytes());
     files.extend(licenses::collect()?);
@@ -114,9 +126,23 @@ fn package(libraries: &[(Platform, PathBuf)], output: &Path) -> Result<()> {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
         files.insert(name, read(library)?);
     }
+    Ok(files)
+}
+
+/// What comes out when the FMU is flown; it is flown as it will be packaged.
+fn reference(files: &Files) -> Result<Files> {
+    let directory = TempDir::with_prefix("fmu-")?;
+    let file = directory.path().join("ahv.fmu");
+    write(&file, archive::zip(files)?)?;
+    cross_check::fly_reference(&file)
+}
+
+/// Writes the FMU and says what it is.
+fn write_fmu(files: Files, output: &Path) -> Result<()> {
     let bytes = archive::zip(&files)?;
     write(output, &bytes)?;
-    let platforms: Vec<_> = libraries.iter().map(|(platform, _)| platform.name).collect();
+    let platforms: Vec<_> =
+        files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
     println!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "));
     let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     println!("  sha256 {digest}");
