@@ -213,11 +213,15 @@ pub struct Reproduce {
 #[command(after_help = "\
 Examples:
   cargo ahv test
-  cargo ahv test --fail-fast")]
+  cargo ahv test --fail-fast
+  cargo ahv test --all-targets    fail if the library for Windows cannot be built or run")]
 pub struct Test {
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,
+    /// Fail if a platform cannot be built for or tested
+    #[arg(long)]
+    pub all_targets: bool,
 }
 
 /// Find numbers that are not published from results that are; write their data file

@@ -1,6 +1,7 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
 use crate::table::number;
+use crate::workspace::{read_text, root};
 use ahv::flight::Flight;
 use ahv::variables::{Kind, Role, TABLE, Variable, guid};
 use anyhow::{Result, anyhow};
@@ -34,6 +35,33 @@ the master gives for the step; the states are integrated with an explicit
 Runge-Kutta method of order 8 that controls its error and ends exactly on the communication
 point.</p>";
 
+const WHAT: &str = "\
+<p><img src=\"../model.png\" alt=\"Side view with two tanks; below, the first bending mode\" \
+width=\"300\"/></p>
+<p>Inputs are elevator and fuel ratio; outputs are the rigid-body motion, the flexible and sloshing
+modes and the loads. The fuselage is a free-free beam of finite elements; two tanks carry sloshing
+masses that take part in its modes. All numbers are inside the library: it reads no file, opens no
+window and needs nothing but the system. Linux (x86-64) with glibc 2.17 or newer and Windows (x86-64)
+compute the same bits, and a serialised state of one continues on the other.</p>";
+
+const CITE: &str = "\
+<h2>How to cite</h2>
+<p>This model, with its version and the identifier above; and the paper whose vehicle it is:</p>
+<p>Xu Xiaodong, Huang Yimin, Cai Xiaobin: <i>Flight Dynamic Analysis of Hypersonic Vehicle Considering
+Liquid-Solid Coupling</i>. Transactions of Nanjing University of Aeronautics and Astronautics 32(1),
+2015, 81-88. doi:10.16356/j.1005-1120.2015.01.081</p>
+<p>The published rigid-body curve fits are those of Parker, Serrani, Yurkovich, Bolender and Doman:
+<i>Control-Oriented Modeling of an Air-Breathing Hypersonic Vehicle</i>. Journal of Guidance, Control,
+and Dynamics 30(3), 2007, 856-869.</p>";
+
+const REPORT: &str = "\
+<h2>How to report a problem</h2>
+<p>First fly the set in <a href=\"cross-check/\">cross-check</a>: inputs, options and the outputs that
+belong to them, in the files of the FMI cross-check. If your tool gives other numbers with them, the
+import is the matter. Otherwise tell the authors: version and identifier of the model; platform,
+tool and its version; parameters that were set, inputs, step and tolerance; the log with all
+categories on (<code>fmi2SetDebugLogging</code>); what came out and what was expected.</p>";
+
 /// The page, as valid XHTML. The same sources give the same bytes.
 pub fn html() -> Result<String> {
     let mut flight = Flight::new()?;
@@ -43,6 +71,7 @@ pub fn html() -> Result<String> {
     }
     flight.initialise()?;
     let limits = limits(&flight)?;
+    let changes = changes()?;
     let (version, guid) = (env!("CARGO_PKG_VERSION"), guid());
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
@@ -50,7 +79,8 @@ pub fn html() -> Result<String> {
          <h1>ahv {version}</h1>\n\
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
-         2015, 81-88. FMI 2.0, co-simulation and model exchange. Model {guid}.</p>\n\
+         2015, 81-88. FMI 2.0 for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
+         {WHAT}\n\
          <h2>Use</h2>\n\
          <p>Without any setting the vehicle flies level and trimmed; <code>delta_e</code> and \
          <code>phi</code> are deviations from trim. It is unstable in pitch, as every vehicle of \
@@ -61,10 +91,22 @@ pub fn html() -> Result<String> {
          <h2>Variables</h2>\n\
          <table>\n<tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th><th>start</th>\
          <th>range</th><th>meaning</th></tr>\n{rows}</table>\n\
+         {CITE}\n{REPORT}\n\
+         <h2>Changes</h2>\n{changes}\n\
          <h2>Licences</h2>\n<p>{} In <a href=\"licenses/\">licenses</a>: the texts, and those of \
          the libraries inside the binary.</p>\n</body>\n</html>\n",
         env!("CARGO_PKG_LICENSE")
     ))
+}
+
+/// The changelog without its title, one level down.
+fn changes() -> Result<String> {
+    let text = read_text(&root().join("CHANGELOG.md"))?;
+    let text = text.split_once("\n## ").map_or("", |(_, versions)| versions);
+    let text = format!("## {text}").replace("\n## ", "\n### ");
+    let mut page = String::new();
+    pulldown_cmark::html::push_html(&mut page, pulldown_cmark::Parser::new(&format!("#{text}")));
+    Ok(page)
 }
 
 fn limits(flight: &Flight) -> Result<String> {
@@ -142,5 +184,17 @@ mod tests {
         for variable in &ahv::variables::TABLE {
             assert!(page.contains(&format!("<code>{}</code>", variable.name)), "{}", variable.name);
         }
+    }
+
+    #[test]
+    fn page_cites_the_paper_as_the_citation_file_does_and_tells_changes() {
+        let page = super::html().unwrap().replace('\n', " ");
+        let citation = include_str!("../../CITATION.cff");
+        for key in ["    title: ", "    doi: ", "    journal: "] {
+            let (_, rest) = citation.split_once(&format!("\n{key}")).unwrap();
+            let value = rest.lines().next().unwrap().trim_matches('"');
+            assert!(page.contains(value), "{value}");
+        }
+        assert!(page.contains(concat!("<h3>", env!("CARGO_PKG_VERSION"), "</h3>")));
     }
 }

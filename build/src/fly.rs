@@ -30,7 +30,11 @@ struct Flown {
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None => package::build()?,
+        None => {
+            let file = package::default_output();
+            package::build(&file, false)?;
+            file
+        }
     };
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;
@@ -90,7 +94,7 @@ pub fn run(options: &Fly) -> Result<()> {
     }
 }
 
-fn positive(option: &str, value: Option<f64>) -> Result<f64> {
+pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     match value {
         Some(value) if value.is_finite() && value > 0.0 => Ok(value),
         Some(value) => bail!("{option} {value}: a finite number above zero is expected"),
@@ -99,7 +103,7 @@ fn positive(option: &str, value: Option<f64>) -> Result<f64> {
 }
 
 /// Sets the inputs that hold at a time.
-fn apply(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
+pub fn apply(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
     let values = manoeuvre.at(time).unwrap_or_default();
     manoeuvre.inputs.iter().zip(values).try_for_each(|(input, value)| instance.set(input, *value))
 }
@@ -146,7 +150,7 @@ fn fly(
 
 /// The ends of all steps: multiples of the step, the stop time, and every change of an input, so
 /// that the inputs are constant during each step.
-fn communication_points(step: f64, stop: f64, changes: impl Iterator<Item = f64>) -> Vec<f64> {
+pub fn communication_points(step: f64, stop: f64, changes: impl Iterator<Item = f64>) -> Vec<f64> {
     // 0.01 is no binary number: dividing by a whole number of steps per second gives the doubles
     // nearest to 0.01, 0.02, ..., multiplying does not.
     let rate = (1.0 / step).round();

@@ -19,11 +19,19 @@ struct Crate {
     manifest_path: PathBuf,
 }
 
-/// Licence files by their name in the FMU: our own, and those of every crate that is linked in.
+/// Licence files by their name in the FMU: our own, those of every crate that is linked in, and
+/// those of the runtimes that compilers and linkers add.
 pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
     let mut files = BTreeMap::new();
     for (name, content) in in_directory(root())? {
         files.insert(format!("documentation/licenses/{name}"), content);
+    }
+    let runtimes = root().join("build/licenses");
+    let entries = fs::read_dir(&runtimes).with_context(|| format!("{}", runtimes.display()))?;
+    for entry in entries {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        files.insert(format!("documentation/licenses/runtime/{name}"), read(&entry.path())?);
     }
     for linked in linked_crates()? {
         let Some(directory) = linked.manifest_path.parent() else { continue };

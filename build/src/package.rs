@@ -2,20 +2,24 @@
 
 mod archive;
 mod binary;
+mod cross_check;
+mod icon;
 mod library;
 mod platform;
+mod windows;
 
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
-use crate::workspace::{read, root, shown, target, write};
+use crate::workspace::{read, shown, target, write};
 use crate::{documentation, licenses};
 use anyhow::{Result, bail};
 use binary::Binary;
 pub use platform::HOST;
-use platform::{LINUX, Platform};
+use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use tempfile::TempDir;
 
 /// Libraries for an FMU.
 #[derive(Default)]
@@ -27,16 +31,25 @@ struct Libraries {
 
 pub fn run(options: &Package) -> Result<()> {
     let output = options.output.clone().unwrap_or_else(default_output);
-    if !options.library.is_empty() {
-        let given: Result<Vec<_>> =
-            options.library.iter().map(|text| platform::given(text)).collect();
-        return package(&given?, &output);
+    if options.library.is_empty() {
+        return build(&output, options.all_targets);
     }
+    let given = options.library.iter().map(|text| platform::given(text));
+    write_fmu(contents(&given.collect::<Result<Vec<_>>>()?)?, &output)
+}
+
+/// Builds and packages for every platform that this machine can build for. If all are
+/// wanted, a missing one is an error.
+pub fn build(output: &Path, all_targets: bool) -> Result<()> {
     let libraries = Libraries::build()?;
-    if options.all_targets && !libraries.missing.is_empty() {
+    if all_targets && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
-    package(&libraries.found, &output)?;
+    let mut files = contents(&libraries.found)?;
+    for (name, content) in reference(&files)? {
+        files.insert(format!("documentation/cross-check/{name}"), content);
+    }
+    write_fmu(files, output)?;
     for (platform, library) in &libraries.found {
         let binary = Binary::parse(&read(library)?)?;
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
@@ -49,15 +62,13 @@ pub fn run(options: &Package) -> Result<()> {
     Ok(())
 }
 
-/// Builds and packages for every platform that this machine can build for; the path of the FMU.
-/// Platforms without which the FMU is not complete are an error if all are wanted.
-pub fn build() -> Result<PathBuf> {
-    let output = default_output();
-    package(&Libraries::build()?.found, &output)?;
-    Ok(output)
+/// Says what is missing for a Windows library.
+pub fn can_build_for_windows() -> Result<()> {
+    windows::toolchain().map(drop)
 }
 
-fn default_output() -> PathBuf {
+/// Where the FMU goes if nothing else is said.
+pub fn default_output() -> PathBuf {
     target().join(MODEL_IDENTIFIER).with_extension("fmu")
 }
 
@@ -67,6 +78,10 @@ impl Libraries {
         let mut libraries = Self::default();
         if HOST != LINUX {
             libraries.found.push((HOST, library::for_host()?));
+            libraries.missing.push(format!(
+                "only {} is in it: the FMU for Linux and Windows is built on Linux",
+                HOST.name
+            ));
             return Ok(libraries);
         }
         match library::zig() {
@@ -86,27 +101,48 @@ impl Libraries {
                 libraries.found.push((LINUX, library));
             }
         }
+        match windows::toolchain() {
+            Ok(toolchain) => {
+                let library = library::for_windows(toolchain)?;
+                Binary::parse(&read(&library)?)?.check(WINDOWS)?;
+                libraries.found.push((WINDOWS, library));
+            }
+            Err(error) => libraries.missing.push(format!("{error:#}")),
+        }
         Ok(libraries)
     }
 }
 
-/// Writes the FMU and says what it is.
-fn package(libraries: &[(Platform, PathBuf)], output: &Path) -> Result<()> {
-    let mut files = BTreeMap::new();
+/// Files of the FMU by their names.
+type Files = BTreeMap<String, Vec<u8>>;
+
+fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
+    let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.insert("documentation/index.html".to_string(), documentation::html()?.into_bytes());
     files.extend(licenses::collect()?);
-    let icon = root().join("modelDescription/model.png");
-    if icon.exists() {
-        files.insert("model.png".to_string(), read(&icon)?);
-    }
+    files.insert("model.png".to_string(), icon::png()?);
     for (platform, library) in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
         files.insert(name, read(library)?);
     }
+    Ok(files)
+}
+
+/// What comes out when the FMU is flown; it is flown as it will be packaged.
+fn reference(files: &Files) -> Result<Files> {
+    let directory = TempDir::with_prefix("fmu-")?;
+    let file = directory.path().join("ahv.fmu");
+    write(&file, archive::zip(files)?)?;
+    cross_check::fly_reference(&file)
+}
+
+/// Writes the FMU and says what it is.
+fn write_fmu(files: Files, output: &Path) -> Result<()> {
     let bytes = archive::zip(&files)?;
     write(output, &bytes)?;
-    let platforms: Vec<_> = libraries.iter().map(|(platform, _)| platform.name).collect();
+    let platforms: Vec<_> =
+        files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
     println!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "));
     let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     println!("  sha256 {digest}");

@@ -10,34 +10,50 @@ use std::process::Command;
 use std::time::Instant;
 
 /// A named step.
-type Step = (&'static str, fn() -> Result<()>);
+type Step = (&'static str, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 12] = [
-    ("prerequisites", prerequisites),
-    ("format", || check(cargo().args(["fmt", "--all", "--check"]))),
-    ("lints", || {
+const STEPS: [Step; 13] = [
+    ("prerequisites", |_| prerequisites()),
+    ("format", |_| check(cargo().args(["fmt", "--all", "--check"]))),
+    ("lints", |_| {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
     }),
-    ("Rust tests", || {
+    ("Rust tests", |_| {
         // The long fuzz has a step of its own.
         check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
     }),
-    ("description", || describe::run(&Describe { check: true, file: None })),
-    ("package", || package::build().map(drop)),
-    ("C ABI fuzz", abuse::fuzz),
-    ("sanitizer", abuse::sanitizer),
-    ("valgrind", abuse::valgrind),
-    ("Python lints", python_lints),
-    ("FMI headers", fmi_headers),
-    ("FMU tests", fmu_tests),
+    ("description", |_| describe::run(&Describe { check: true, file: None })),
+    ("package", |options| package::build(&package::default_output(), options.all_targets)),
+    ("C ABI fuzz", |_| abuse::fuzz()),
+    ("sanitizer", |_| abuse::sanitizer()),
+    ("valgrind", |_| abuse::valgrind()),
+    ("Python lints", |_| python_lints()),
+    ("FMI headers", |_| fmi_headers()),
+    ("FMU tests", |_| python_tests("tests/fmu")),
+    WINDOWS,
 ];
+
+/// Runs where there is a Windows to run it on, or if everything is wanted.
+const WINDOWS: Step = ("Windows", |_| {
+    if let Some(missing) = missing_for_windows() {
+        bail!("{missing}");
+    }
+    python_tests("tests/wine")
+});
 
 pub fn run(options: &Test) -> Result<()> {
     let mut results = Vec::new();
     for (number, (name, step)) in STEPS.into_iter().enumerate() {
         println!("\n[{}/{}] {name}", number + 1, STEPS.len());
         let started = Instant::now();
-        let result = step();
+        if name == WINDOWS.0
+            && !options.all_targets
+            && let Some(missing) = missing_for_windows()
+        {
+            println!("not run: {missing}");
+            break;
+        }
+        let result = step(options);
         if let Err(error) = &result {
             eprintln!("error: {error:#}");
         }
@@ -94,18 +110,24 @@ pub fn works(program: &str, arguments: &[&str]) -> bool {
     Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
 }
 
-/// The FMU in other masters, driven from Python.
-fn fmu_tests() -> Result<()> {
-    let fmu = package::build()?;
-    let python = python()?;
-    let tests = root().join("tests/fmu");
+/// The packaged FMU in other masters, driven from Python.
+fn python_tests(folder: &str) -> Result<()> {
     check(
-        Command::new(python)
+        Command::new(python()?)
             .args(["-m", "pytest", "-p", "no:cacheprovider"])
-            .arg(tests)
+            .arg(root().join(folder))
             .current_dir(root())
-            .env("AHV_FMU", fmu),
+            .env("AHV_FMU", package::default_output()),
     )
+}
+
+/// What the tests of the Windows library need and this machine does not have.
+fn missing_for_windows() -> Option<String> {
+    if let Err(error) = package::can_build_for_windows() {
+        return Some(format!("{error:#}"));
+    }
+    (!works("wine", &["--version"]))
+        .then(|| "wine runs the library; on Debian: apt-get install wine wine64".to_string())
 }
 
 fn python_lints() -> Result<()> {

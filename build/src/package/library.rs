@@ -1,21 +1,22 @@
 //! Compiles the library for a platform.
 
 use super::binary::GLIBC;
-use super::platform::{HOST, LINUX, Platform};
+use super::platform::{HOST, LINUX, Platform, WINDOWS};
+use super::windows::Toolchain;
 use crate::describe::MODEL_IDENTIFIER;
 use crate::python::{Environment, environment};
 use crate::workspace::{cargo, root, target};
 use anyhow::{Context, Result, anyhow, bail};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The library for this machine, linked as Cargo does: it needs the C library of this machine.
 pub fn for_host() -> Result<PathBuf> {
     let mut command = cargo();
     command.arg("build");
-    compile(command, HOST, "host")
+    compile(command, HOST, "host", Vec::new())
 }
 
 /// The linker of zig, which knows the interfaces of all glibc versions.
@@ -35,21 +36,33 @@ pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
         .env("CARGO_ZIGBUILD_CACHE_DIR", caches.join("zigbuild"))
         .env("ZIG_GLOBAL_CACHE_DIR", caches.join("global"))
         .env("ZIG_LOCAL_CACHE_DIR", caches.join("local"));
-    compile(command, LINUX, LINUX.name)
+    compile(command, LINUX, LINUX.name, Vec::new())
+}
+
+/// The library for Windows.
+pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
+    let mut flags = vec!["-Clink-arg=-Wl,--no-insert-timestamp".into()];
+    flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
+    compile(toolchain.command, WINDOWS, WINDOWS.name, flags)
 }
 
 /// Runs a `cargo build` with our options; where Cargo put the library.
 ///
 /// Every kind of build has a target directory of its own, because their compilers and flags
 /// differ, and would otherwise overwrite each other.
-fn compile(mut command: Command, platform: Platform, directory: &str) -> Result<PathBuf> {
+fn compile(
+    mut command: Command,
+    platform: Platform,
+    directory: &str,
+    flags: Vec<OsString>,
+) -> Result<PathBuf> {
     command
         .args(["--quiet", "--release", "--package", "ahv-fmu", "--lib"])
         .args(["--config", "profile.release.strip='symbols'"])
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")
         .arg(target().join("fmu").join(directory))
-        .env("CARGO_ENCODED_RUSTFLAGS", rustflags())
+        .env("CARGO_ENCODED_RUSTFLAGS", rustflags(flags))
         .stderr(Stdio::inherit());
     let output = command
         .output()
@@ -73,8 +86,9 @@ fn compile(mut command: Command, platform: Platform, directory: &str) -> Result<
         .ok_or_else(|| anyhow!("cargo did not say where the library ahv.{} is", platform.ending))
 }
 
-/// Flags that keep the builder's directories out of the library: panic messages name source files.
-fn rustflags() -> OsString {
+/// Flags of the user, ours, and those that keep the builder's directories out of the library: panic
+/// messages name source files.
+fn rustflags(ours: Vec<OsString>) -> OsString {
     let home = std::env::var_os("CARGO_HOME")
         .map(PathBuf::from)
         .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
@@ -85,15 +99,16 @@ fn rustflags() -> OsString {
     prefixes.extend(directories.map(|directory| (directory.path(), "crates")));
     // Of several prefixes that fit, the compiler takes the last.
     prefixes.sort();
-    let mut flags =
-        OsString::from(std::env::var("RUSTFLAGS").unwrap_or_default().replace(' ', "\x1f"));
-    for (path, name) in prefixes {
-        if !flags.is_empty() {
-            flags.push("\x1f");
-        }
-        flags.push("--remap-path-prefix=");
-        flags.push(path);
-        flags.push(format!("={name}"));
-    }
-    flags
+    let user = std::env::var("RUSTFLAGS").unwrap_or_default();
+    let user = user.split_whitespace().map(OsString::from);
+    let remaps = prefixes.iter().map(|(path, name)| remap(path, name));
+    let flags: Vec<_> = user.chain(ours).chain(remaps).collect();
+    flags.join(OsStr::new("\x1f"))
+}
+
+fn remap(path: &Path, name: &str) -> OsString {
+    let mut flag = OsString::from("--remap-path-prefix=");
+    flag.push(path);
+    flag.push(format!("={name}"));
+    flag
 }

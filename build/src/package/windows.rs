@@ -1,0 +1,84 @@
+//! Which compiler makes the library for Windows.
+
+use super::platform::WINDOWS;
+use crate::workspace::{cargo, root};
+use anyhow::{Result, anyhow, bail};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Links for Windows; of the MinGW-w64 project.
+const LINKER: &str = "x86_64-w64-mingw32-gcc";
+
+const HOW_TO_GET: &str = "on Debian: apt-get install gcc-mingw-w64-x86-64 rustc-web cargo-web \
+                          rust-web-src; with rustup: rustup target add x86_64-pc-windows-gnu, and \
+                          a MinGW-w64 linker";
+
+/// A Cargo that can build for Windows, up to its subcommand's options.
+pub struct Toolchain {
+    pub command: Command,
+    /// Sources of the standard library, if it is compiled too.
+    pub std: Option<PathBuf>,
+}
+
+/// Finds one: the Cargo that runs this tool if it has the target, otherwise Debian's, which brings
+/// the sources of the standard library.
+pub fn toolchain() -> Result<Toolchain> {
+    let missing = |what: &str| anyhow!("win64 is not in it: {what}; {HOW_TO_GET}");
+    if answer(Path::new(LINKER), &["--version"]).is_none() {
+        return Err(missing("the linker x86_64-w64-mingw32-gcc is missing"));
+    }
+    let own = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let (mut command, std) = if has_target(&own) {
+        let mut command = cargo();
+        command.arg("build");
+        (command, None)
+    } else {
+        let (command, std) = debian().map_err(|error| missing(&format!("{error:#}")))?;
+        (command, Some(std))
+    };
+    command
+        .args(["--target", WINDOWS.triple])
+        .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", LINKER);
+    Ok(Toolchain { command, std })
+}
+
+/// Debian's Cargo and the sources of its standard library.
+fn debian() -> Result<(Command, PathBuf)> {
+    let rustc = Path::new("/usr/bin/rustc");
+    let program = Path::new("/usr/bin/cargo");
+    let Some(version) = answer(rustc, &["--version"]).filter(|_| program.exists()) else {
+        bail!("no installed compiler has the target {}", WINDOWS.triple);
+    };
+    let wanted = env!("CARGO_PKG_RUST_VERSION");
+    let minor = |text: &str| text.split('.').nth(1).and_then(|minor| minor.parse::<u32>().ok());
+    if minor(&version) < minor(wanted) {
+        bail!("{version} is older than {wanted}");
+    }
+    let sysroot = answer(rustc, &["--print", "sysroot"]).unwrap_or_default();
+    let std = Path::new(&sysroot).join("lib/rustlib/src/rust");
+    if !std.join("library/std").exists() {
+        bail!("the sources of the standard library of {version} are missing");
+    }
+    let mut command = Command::new(program);
+    command
+        .current_dir(root())
+        .args(["build", "-Zbuild-std=std,panic_unwind"])
+        .env("RUSTC", rustc)
+        // The released compiler refuses -Z without it.
+        .env("RUSTC_BOOTSTRAP", "1")
+        // The libraries of the other toolchain are none of its business.
+        .env_remove("LD_LIBRARY_PATH");
+    Ok((command, std))
+}
+
+fn has_target(rustc: &Path) -> bool {
+    answer(rustc, &["--target", WINDOWS.triple, "--print", "target-libdir"])
+        .is_some_and(|directory| Path::new(&directory).exists())
+}
+
+/// What a program prints, if it is there and content.
+fn answer(program: &Path, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).trim().to_string();
+    output.status.success().then_some(text)
+}
