@@ -4,7 +4,7 @@
 //! derivatives. The generalised slosh force Q_i of eq. (3) does not appear: the sloshing masses
 //! are unknowns of the eigenproblem, so their force is inside the modes already.
 
-use crate::aero::{Aero, Elastic, ElasticTerm};
+use crate::aero::{Aero, Elastic, ElasticTerm, PerMode};
 use crate::atmosphere::Atmosphere;
 use crate::modes::{MODES, SLOSH};
 use crate::scalar::Scalar;
@@ -199,7 +199,7 @@ impl Vehicle {
         x: &State<S>,
         u: &Control<S>,
     ) -> State<S> {
-        let [speed, altitude, gamma, alpha, q, ..] = *x;
+        let [speed, altitude, gamma, _, q, ..] = *x;
         let (gravity, distance) = self.atmosphere.gravity(altitude);
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
@@ -215,30 +215,55 @@ impl Vehicle {
         rates[3] = q - gamma_dot;
         rates[4] = loads.moment * (1.0 / self.inertia);
 
-        let force = loads.qbar * self.aero.area;
-        let elevator = self.aero.lift.elevator(u[0]);
-        let plume = u[1] * self.aero.lift_phi.body(alpha);
-        for (i, n) in self.elastic.force.iter().enumerate() {
-            let [n_0, n_alpha, n_alpha2] = n.alpha;
-            let generalised = (alpha * n_alpha2 + n_alpha) * alpha
-                + n_0
-                + elevator * n.delta_e
-                + plume * n.plume
-                + q * per_speed * n.pitch_rate
-                + self.elastic_sum(&n.elastic, x, per_speed);
-            let mut damping = S::constant(0.0);
-            for (k, per_second) in self.damping[i].iter().enumerate() {
-                damping = damping + x[RIGID + 2 * k + 1] * *per_second;
-            }
-            let engine = loads.thrust * (sin_alpha * n.thrust_across + n.thrust_couple);
+        if self.modes == 0 {
+            return rates;
+        }
+        let modal = self.modal_accelerations(sin_alpha, loads, x, u);
+        for (i, acceleration) in modal.into_iter().enumerate().take(self.modes) {
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] = force * generalised + engine + self.floor[i]
-                - damping
-                - x[eta] * (self.omega[i] * self.omega[i]);
+            rates[eta_dot] = acceleration;
         }
-        rates[self.states()..].fill(S::constant(0.0));
         rates
+    }
+
+    /// Second derivatives of the modal coordinates. Term by term for all modes at once; a function
+    /// of its own, as compilers make two operations one where results go to memory side by side.
+    #[inline(never)]
+    fn modal_accelerations<S: Scalar>(
+        &self,
+        sin_alpha: S,
+        loads: &Loads<S>,
+        x: &State<S>,
+        u: &Control<S>,
+    ) -> [S; MODES] {
+        let (alpha, q) = (x[3], x[4]);
+        let per_speed = S::constant(1.0) / x[0];
+        let n = &self.elastic.force;
+        // Over qbar S.
+        let mut air = n.alpha[0].map(S::constant);
+        add(&mut air, alpha, &n.alpha[1]);
+        add(&mut air, alpha * alpha, &n.alpha[2]);
+        add(&mut air, self.aero.lift.elevator(u[0]), &n.delta_e);
+        add(&mut air, u[1] * self.aero.lift_phi.body(alpha), &n.plume);
+        add(&mut air, q * per_speed, &n.pitch_rate);
+        for (k, [per_eta, per_rate]) in n.elastic.iter().enumerate() {
+            add(&mut air, x[RIGID + 2 * k], per_eta);
+            add(&mut air, x[RIGID + 2 * k + 1] * per_speed, per_rate);
+        }
+        let mut sum = self.floor.map(S::constant);
+        add(&mut sum, loads.thrust * sin_alpha, &n.thrust_across);
+        add(&mut sum, loads.thrust, &n.thrust_couple);
+        let force = loads.qbar * self.aero.area;
+        for i in 0..MODES {
+            let stiffness = x[RIGID + 2 * i] * (self.omega[i] * self.omega[i]);
+            sum[i] = sum[i] + force * air[i] - stiffness;
+        }
+        for k in 0..MODES {
+            let damping = std::array::from_fn(|i| -self.damping[i][k]);
+            add(&mut sum, x[RIGID + 2 * k + 1], &damping);
+        }
+        sum
     }
 
     fn shown<S: Scalar>(&self, loads: Loads<S>, x: &State<S>) -> Outputs<S> {
@@ -260,5 +285,13 @@ impl Vehicle {
     pub fn saturate(&self, u: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.ranges();
         [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+    }
+}
+
+/// Adds a term to a quantity of each mode.
+#[inline]
+fn add<S: Scalar>(sum: &mut [S; MODES], factor: S, per_mode: &PerMode) {
+    for (sum, per) in sum.iter_mut().zip(per_mode) {
+        *sum = *sum + factor * *per;
     }
 }

@@ -22,7 +22,7 @@ impl Flight {
         tangent.slope = None;
         tangent.sample = self.ready.as_ref().map(|ready| {
             let vehicle = &ready.vehicle;
-            let (base, control) = (self.base(ready), self.control(ready));
+            let (base, control) = (ready.base, self.control(ready));
             let control_change = std::array::from_fn(|i| {
                 let [min, max] = vehicle.ranges()[i];
                 let wanted = base[i] + self.inputs.values[i];
