@@ -69,24 +69,27 @@ pub struct ElasticTerm {
     pub per: [[f64; 2]; MODES],
 }
 
-/// Generalised force on one mode: aerodynamic terms over qbar S, thrust terms over the thrust; mode
+/// One number for each mode, flexible modes first, then slosh modes.
+pub type PerMode = [f64; MODES];
+
+/// Generalised forces on the modes: aerodynamic terms over qbar S, thrust terms over the thrust; mode
 /// shapes are dimensionless, and both are divided by the modal mass.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ModalForce {
+pub struct ModalForces {
     /// N^0, N^alpha, N^alpha2: the rigid body's load, as a polynomial in the incidence.
-    pub alpha: [f64; 3],
+    pub alpha: [PerMode; 3],
     /// N^delta_e, per rad; the modal force is to this as the elevator's lift to its slope at zero.
-    pub delta_e: f64,
+    pub delta_e: PerMode,
     /// Of the lift that the plume adds, C_L,phi phi.
-    pub plume: f64,
-    /// N^eta and its rate term.
-    pub elastic: ElasticTerm,
+    pub plume: PerMode,
+    /// By each mode k: N^eta_k, 1/m, and what there is per eta-dot_k/V, 1/m.
+    pub elastic: [[PerMode; 2]; MODES],
     /// Per q/V, m.
-    pub pitch_rate: f64,
+    pub pitch_rate: PerMode,
     /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
-    pub thrust_across: f64,
+    pub thrust_across: PerMode,
     /// Of the thrust's couple, T z_T, which acts at the nacelle.
-    pub thrust_couple: f64,
+    pub thrust_couple: PerMode,
 }
 
 /// Elastic terms of eq. (4) for one set of modes.
@@ -101,7 +104,7 @@ pub struct Elastic {
     /// Incidence of the engine's inflow, rad.
     pub inflow: ElasticTerm,
     /// N_i.
-    pub force: [ModalForce; MODES],
+    pub force: ModalForces,
 }
 
 /// A coefficient set, without its elastic terms.

@@ -14,7 +14,7 @@
 //! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
 //! the air, and a beam that feels one without the other seems to spin.
 
-use crate::aero::{Aero, Elastic, ModalForce};
+use crate::aero::{Aero, Elastic};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
@@ -182,21 +182,21 @@ pub fn derive(
         let load = |power: usize| {
             surfaces.iter().map(|s| s.load[power] * s.mean.phi[i]).sum::<f64>() * per_mass
         };
-        let mut force = ModalForce {
-            alpha: std::array::from_fn(load),
-            delta_e: aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass,
-            thrust_across: modes.shape[i].w_at(&centre) * per_mass,
-            plume: plume.map_or(0.0, |place| modes.shape[i].w_at(&place) * per_mass),
-            // Nose up and w up: the couple works on a falling slope.
-            thrust_couple: -aero.thrust_arm * modes.shape[i].slope_at(&strips.engine) * per_mass,
-            pitch_rate: answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass,
-            ..ModalForce::default()
-        };
-        for k in 0..modes.shape.len() {
-            force.elastic.per[k][0] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
-            force.elastic.per[k][1] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
+        let shape = &modes.shape[i];
+        let force = &mut elastic.force;
+        for (power, alpha) in force.alpha.iter_mut().enumerate() {
+            alpha[i] = load(power);
         }
-        elastic.force[i] = force;
+        force.delta_e[i] = aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass;
+        force.thrust_across[i] = shape.w_at(&centre) * per_mass;
+        force.plume[i] = plume.map_or(0.0, |place| shape.w_at(&place) * per_mass);
+        // Nose up and w up: the couple works on a falling slope.
+        force.thrust_couple[i] = -aero.thrust_arm * shape.slope_at(&strips.engine) * per_mass;
+        force.pitch_rate[i] = answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass;
+        for k in 0..modes.shape.len() {
+            force.elastic[k][0][i] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
+            force.elastic[k][1][i] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
+        }
     }
     elastic
 }

@@ -4,10 +4,13 @@
 //! derivatives. The generalised slosh force Q_i of eq. (3) does not appear: the sloshing masses
 //! are unknowns of the eigenproblem, so their force is inside the modes already.
 
-use crate::aero::{Aero, Elastic, ElasticTerm};
+mod stream;
+
+use crate::aero::{Aero, Elastic, ElasticTerm, PerMode};
 use crate::atmosphere::Atmosphere;
 use crate::modes::{MODES, SLOSH};
 use crate::scalar::Scalar;
+use stream::Stream;
 
 /// V, h, gamma, alpha, q.
 pub const RIGID: usize = 5;
@@ -52,18 +55,6 @@ pub struct Vehicle {
     pub slosh: [[f64; MODES]; SLOSH],
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
-}
-
-/// The vehicle as air in vertical motion meets it.
-struct Stream<S> {
-    /// The state with the speed through the air for V and the incidence to it for alpha.
-    state: State<S>,
-    /// Sine and cosine of the angle of attack, of the body against the flight path.
-    body: (S, S),
-    /// Sine and cosine of the incidence, of the body against the stream.
-    axis: (S, S),
-    /// Sine and cosine of the angle by which the stream comes from below the flight path.
-    turn: (S, S),
 }
 
 /// Forces on the vehicle, per metre of width.
@@ -131,31 +122,6 @@ impl Vehicle {
         RIGID + 2 * self.modes
     }
 
-    /// What air that rises at `gust` (m/s) makes of the state.
-    #[inline]
-    fn stream<S: Scalar>(x: &State<S>, gust: S) -> Stream<S> {
-        let (zero, one) = (S::constant(0.0), S::constant(1.0));
-        let body = x[3].sin_cos();
-        if gust.is_zero() {
-            return Stream { state: *x, body, axis: body, turn: (zero, one) };
-        }
-        let (sin_gamma, cos_gamma) = x[2].sin_cos();
-        let (along, across) = (x[0] - gust * sin_gamma, gust * cos_gamma);
-        let speed = (along * along + across * across).sqrt();
-        let mut state = *x;
-        state[0] = speed;
-        state[3] = x[3] + (across / along).atan();
-        let (sin, cos) = (across / speed, along / speed);
-        let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
-        Stream { state, body, axis, turn: (sin, cos) }
-    }
-
-    /// The state as air rising at `gust` (m/s) meets it: speed through the air for V, incidence to
-    /// it for alpha. Still air leaves it bit for bit as it is.
-    pub fn as_met(x: &State, gust: f64) -> State {
-        Self::stream(x, gust).state
-    }
-
     /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
         self.loads_on(x[3].sin_cos(), x, u)
@@ -216,19 +182,19 @@ impl Vehicle {
     /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
     /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
-        let stream = Self::stream(x, gust);
+        let stream = Stream::new(x, gust);
         self.rates(&stream, &self.loads_on(stream.axis, &stream.state, u), x, u)
     }
 
     /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
     pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
-        let stream = Self::stream(x, gust);
+        let stream = Stream::new(x, gust);
         self.shown(self.loads_on(stream.axis, &stream.state, u), x)
     }
 
     /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
     pub fn both<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> (State<S>, Outputs<S>) {
-        let stream = Self::stream(x, gust);
+        let stream = Stream::new(x, gust);
         let loads = self.loads_on(stream.axis, &stream.state, u);
         (self.rates(&stream, &loads, x, u), self.shown(loads, x))
     }
@@ -261,32 +227,56 @@ impl Vehicle {
         rates[3] = q - gamma_dot;
         rates[4] = loads.moment * (1.0 / self.inertia);
 
-        let force = loads.qbar * self.aero.area;
-        let elevator = self.aero.lift.elevator(u[0]);
-        let (incidence, (sin_incidence, _)) = (stream.state[3], stream.axis);
-        let per_airspeed = S::constant(1.0) / stream.state[0];
-        let plume = u[1] * self.aero.lift_phi.body(incidence);
-        for (i, n) in self.elastic.force.iter().enumerate() {
-            let [n_0, n_alpha, n_alpha2] = n.alpha;
-            let generalised = (incidence * n_alpha2 + n_alpha) * incidence
-                + n_0
-                + elevator * n.delta_e
-                + plume * n.plume
-                + q * per_airspeed * n.pitch_rate
-                + self.elastic_sum(&n.elastic, x, per_airspeed);
-            let mut damping = S::constant(0.0);
-            for (k, per_second) in self.damping[i].iter().enumerate() {
-                damping = damping + x[RIGID + 2 * k + 1] * *per_second;
-            }
-            let engine = loads.thrust * (sin_incidence * n.thrust_across + n.thrust_couple);
+        if self.modes == 0 {
+            return rates;
+        }
+        let modal = self.modal_accelerations(stream.axis.0, loads, &stream.state, u);
+        for (i, acceleration) in modal.into_iter().enumerate().take(self.modes) {
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
-            rates[eta_dot] = force * generalised + engine + self.floor[i]
-                - damping
-                - x[eta] * (self.omega[i] * self.omega[i]);
+            rates[eta_dot] = acceleration;
         }
-        rates[self.states()..].fill(S::constant(0.0));
         rates
+    }
+
+    /// Second derivatives of the modal coordinates, of a state as the air meets it. Term by term
+    /// for all modes at once; a function of its own, as compilers make two operations one where
+    /// results go to memory side by side.
+    #[inline(never)]
+    fn modal_accelerations<S: Scalar>(
+        &self,
+        sin_incidence: S,
+        loads: &Loads<S>,
+        x: &State<S>,
+        u: &Control<S>,
+    ) -> [S; MODES] {
+        let (alpha, q) = (x[3], x[4]);
+        let per_speed = S::constant(1.0) / x[0];
+        let n = &self.elastic.force;
+        // Over qbar S.
+        let mut air = n.alpha[0].map(S::constant);
+        add(&mut air, alpha, &n.alpha[1]);
+        add(&mut air, alpha * alpha, &n.alpha[2]);
+        add(&mut air, self.aero.lift.elevator(u[0]), &n.delta_e);
+        add(&mut air, u[1] * self.aero.lift_phi.body(alpha), &n.plume);
+        add(&mut air, q * per_speed, &n.pitch_rate);
+        for (k, [per_eta, per_rate]) in n.elastic.iter().enumerate() {
+            add(&mut air, x[RIGID + 2 * k], per_eta);
+            add(&mut air, x[RIGID + 2 * k + 1] * per_speed, per_rate);
+        }
+        let mut sum = self.floor.map(S::constant);
+        add(&mut sum, loads.thrust * sin_incidence, &n.thrust_across);
+        add(&mut sum, loads.thrust, &n.thrust_couple);
+        let force = loads.qbar * self.aero.area;
+        for i in 0..MODES {
+            let stiffness = x[RIGID + 2 * i] * (self.omega[i] * self.omega[i]);
+            sum[i] = sum[i] + force * air[i] - stiffness;
+        }
+        for k in 0..MODES {
+            let damping = std::array::from_fn(|i| -self.damping[i][k]);
+            add(&mut sum, x[RIGID + 2 * k + 1], &damping);
+        }
+        sum
     }
 
     fn shown<S: Scalar>(&self, loads: Loads<S>, x: &State<S>) -> Outputs<S> {
@@ -308,5 +298,13 @@ impl Vehicle {
     pub fn saturate(&self, u: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.ranges();
         [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+    }
+}
+
+/// Adds a term to a quantity of each mode.
+#[inline]
+fn add<S: Scalar>(sum: &mut [S; MODES], factor: S, per_mode: &PerMode) {
+    for (sum, per) in sum.iter_mut().zip(per_mode) {
+        *sum = *sum + factor * *per;
     }
 }

@@ -1,6 +1,7 @@
 //! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
 
 mod inputs;
+mod ready;
 mod snapshot;
 mod steered;
 mod tangent;
@@ -9,12 +10,13 @@ pub use inputs::{GUST, INPUT_ORDER, INPUTS, Inputs};
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, Outputs, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{Control, Outputs, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator};
-use crate::parameters::{InputMode, Parameters};
-use crate::trim::{Trim, trim};
+use crate::parameters::Parameters;
+use crate::trim::Trim;
 use crate::vehicle::Data;
+use ready::Ready;
 use std::sync::Arc;
 use steered::{Steered, in_effect};
 
@@ -52,30 +54,11 @@ pub struct Flight {
     sample: Option<Sample>,
 }
 
-#[derive(Debug, Clone)]
-struct Ready {
-    vehicle: Vehicle,
-    trim: Trim,
-}
-
 fn left(vehicle: &Vehicle, state: &State, gust: f64, time_s: f64) -> Error {
     let met = Vehicle::as_met(state, gust);
     let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, &met);
     let [min, max] = tightest.limits;
     Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
-}
-
-/// Start values without trim, by the names of their parameters.
-fn start_outside(vehicle: &Vehicle, state: &State) -> Error {
-    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
-    let variable = match tightest.variable {
-        "h" => "altitude0",
-        "mach" => "mach0",
-        _ => "alpha0",
-    };
-    let [min, max] = tightest.limits;
-    let expected = format!("the curve fits hold in [{min:.6}, {max:.6}]");
-    Error::Value { variable: variable.into(), value: tightest.value, expected }
 }
 
 impl Flight {
@@ -190,40 +173,13 @@ impl Flight {
     /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
     /// region where the curve fits hold.
     pub fn initialise(&mut self) -> Result<(), Error> {
-        if self.ready.is_some() {
-            return Ok(());
-        }
-        let Parameters { build, trim: trimmed, alpha0, q0, eta0, .. } = self.parameters;
-        let vehicle = Vehicle::new(&self.data, &build)?;
-        let trim = if trimmed {
-            trim(&vehicle, &build.condition)?
-        } else {
-            let mut state = build.condition.start(&vehicle.atmosphere);
-            state[3] = alpha0;
-            state[4] = q0;
-            for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
-                state[RIGID + 2 * i] = eta;
-            }
-            if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &state) {
-                return Err(start_outside(&vehicle, &state));
-            }
-            Trim { state, control: [0.0; 2] }
-        };
-        self.state = trim.state;
-        self.ready = Some(Ready { vehicle, trim });
-        Ok(())
-    }
-
-    /// What the inputs are added to: the trim where they are deviations.
-    fn base(&self, ready: &Ready) -> Control {
-        let deviation =
-            self.parameters.trim && self.parameters.input_mode == InputMode::DeviationFromTrim;
-        if deviation { ready.trim.control } else { [0.0; 2] }
+        let Self { ready, state, data, parameters, .. } = self;
+        Ready::of(ready, state, data, parameters).map(|_| ())
     }
 
     /// Controls in effect, cut to the actuators' limits, and gust.
     fn control(&self, ready: &Ready) -> (Control, f64) {
-        in_effect(&ready.vehicle, &self.base(ready), &self.inputs.values)
+        in_effect(&ready.vehicle, &ready.base, &self.inputs.values)
     }
 
     /// Outputs and derivatives at the current instant, computed once per state and input.
@@ -256,19 +212,20 @@ impl Flight {
     /// [`Error::Envelope`] on leaving the region where the curve fits hold: time and state are then
     /// those of the last valid instant. [`Error::StepSize`] if the tolerance cannot be held.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
-        self.initialise()?;
-        let Some(ready) = &self.ready else { return Ok(()) };
+        let Self { ready, state, data, parameters, inputs, .. } = self;
+        let ready = Ready::of(ready, state, data, parameters)?;
         let steered = Steered {
             vehicle: &ready.vehicle,
-            base: self.base(ready),
-            inputs: &self.inputs,
-            held: (!self.inputs.moving()).then(|| self.control(ready)),
+            base: ready.base,
+            inputs,
+            held: (!inputs.moving())
+                .then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
         };
         let length = end - self.time;
         let arrival = self.integrator.advance(
             &DOP853,
             &steered,
-            &mut self.state,
+            state,
             // Counted from here, so that a late start costs no digits.
             [0.0, length],
             &mut self.slope,
@@ -277,7 +234,7 @@ impl Flight {
             Arrival::Complete => length,
             Arrival::Left(flown) | Arrival::Stuck(flown) => flown,
         };
-        self.inputs = self.inputs.after(flown);
+        *inputs = inputs.after(flown);
         self.sample = None;
         match arrival {
             Arrival::Complete => {
@@ -286,7 +243,7 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                Err(left(&ready.vehicle, &self.state, self.inputs.values[GUST], self.time))
+                Err(left(&ready.vehicle, state, inputs.values[GUST], self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

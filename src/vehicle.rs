@@ -146,7 +146,9 @@ impl Body {
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
         let (beam, oscillators) = structure(data, build)?;
         let properties = beam.mass_properties(&oscillators);
-        let full = {
+        let full = if build.fuel_fraction == 1.0 {
+            properties
+        } else {
             let (beam, oscillators) = structure(data, &Build { fuel_fraction: 1.0, ..*build })?;
             beam.mass_properties(&oscillators)
         };

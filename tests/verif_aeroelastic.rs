@@ -81,24 +81,34 @@ fn verif_slope_of_a_fit_counts_the_elevator() {
 #[test]
 fn verif_loads_add_up_to_the_published_lift_and_moment() {
     let Case { aero, elastic, .. } = rigid_motions(AeroSet::Parker2007);
-    let [heave, pitch] = [elastic.force[0], elastic.force[1]];
+    let ([heave, pitch], force) = ([0, 1], elastic.force);
     for power in 0..3 {
         // Work on a heave is lift; work on a nose-down pitch is minus the nose-up moment.
         let [lift, moment] = [aero.lift.alpha[power], -aero.chord * aero.moment.alpha[power]];
-        assert!((heave.alpha[power] - lift).abs() < ROUNDING, "lift, power {power}");
-        assert!((pitch.alpha[power] - moment).abs() < 100.0 * ROUNDING, "moment, power {power}");
+        assert!((force.alpha[power][heave] - lift).abs() < ROUNDING, "lift, power {power}");
+        assert!(
+            (force.alpha[power][pitch] - moment).abs() < 100.0 * ROUNDING,
+            "moment, power {power}"
+        );
     }
-    assert_close("elevator lift", heave.delta_e, aero.lift.delta_e[0], ROUNDING);
-    assert_close("elevator moment", pitch.delta_e, -aero.chord * aero.moment.delta_e[0], ROUNDING);
+    assert_close("elevator lift", force.delta_e[heave], aero.lift.delta_e[0], ROUNDING);
+    assert_close(
+        "elevator moment",
+        force.delta_e[pitch],
+        -aero.chord * aero.moment.delta_e[0],
+        ROUNDING,
+    );
 }
 
 #[test]
 fn verif_thrust_works_on_rigid_motions_as_on_the_rigid_body() {
     let Case { aero, elastic, .. } = rigid_motions(AeroSet::Parker2007);
-    let [heave, pitch] = [elastic.force[0], elastic.force[1]];
-    assert_close("lift of the thrust", heave.thrust_across, 1.0, ROUNDING);
-    assert_close("couple", pitch.thrust_couple, -aero.thrust_arm, ROUNDING);
-    assert!(heave.thrust_couple.abs() < ROUNDING && pitch.thrust_across.abs() < ROUNDING);
+    let ([heave, pitch], force) = ([0, 1], elastic.force);
+    assert_close("lift of the thrust", force.thrust_across[heave], 1.0, ROUNDING);
+    assert_close("couple", force.thrust_couple[pitch], -aero.thrust_arm, ROUNDING);
+    assert!(
+        force.thrust_couple[heave].abs() < ROUNDING && force.thrust_across[pitch].abs() < ROUNDING
+    );
 }
 
 #[test]
@@ -119,8 +129,9 @@ fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
     // q > 0 lifts the nose: w = -(x - x_cg), so a rate of the nose-down shape is -q.
     let Case { elastic, centre, aero } = rigid_motions(AeroSet::Parker2007);
     assert_eq!(centre, aero.moment_centre);
-    for force in &elastic.force[..2] {
-        assert_close("rate", force.pitch_rate, -force.elastic.per[1][1], ROUNDING);
+    for i in 0..2 {
+        let force = &elastic.force;
+        assert_close("rate", force.pitch_rate[i], -force.elastic[1][1][i], ROUNDING);
     }
 }
 
@@ -134,7 +145,7 @@ fn verif_the_air_damps_every_mode() {
         let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
         let n = vehicle.modes;
         let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
-            let entry = |i: usize, k: usize| vehicle.elastic.force[i].elastic.per[k][1] * mass[i];
+            let entry = |i: usize, k: usize| vehicle.elastic.force.elastic[k][1][i] * mass[i];
             0.5 * (entry(i, k) + entry(k, i))
         });
         let eigenvalues = damping.symmetric_eigenvalues();

@@ -105,7 +105,7 @@ fn verif_strips_stand_for_panels_within_the_stated_bound() {
         // What damps or drives each mode by itself has the same sign and size.
         for i in 0..FLEXIBLE {
             let [strip, panel] =
-                [&vehicle.elastic, &direct].map(|elastic| elastic.force[i].elastic.per[i][1]);
+                [&vehicle.elastic, &direct].map(|elastic| elastic.force.elastic[i][1][i]);
             assert!(strip < 0.0 && panel < 0.0, "{configuration:?}, mode {i}");
             assert_close("damping", strip, panel, STRIPS);
         }

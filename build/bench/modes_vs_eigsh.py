@@ -1,6 +1,8 @@
-"""Time and error of SciPy's shift-invert eigsh on the matrices of the beam, beside ours.
+"""Time and error of SciPy's shift-invert eigsh and of LAPACK on the beam's matrices, beside ours.
 
-Usage: modes_vs_eigsh.py FILE.json, with the keys
+Usage: modes_vs_eigsh.py [--lines] FILE.json
+--lines prints for each method: name;median s;least s;largest s;largest relative error of omega
+Keys of the file:
   element_m, stiffness[], density[]              elements of the beam
   oscillators[]: {node, mass, stiffness}         sloshing masses
   omega_rad_per_s[], median_s                    our frequencies and the time they took
@@ -13,10 +15,10 @@ import sys
 import time
 
 import numpy as np
+from scipy.linalg import eigh
 from scipy.sparse import coo_matrix
 from scipy.sparse.linalg import eigsh
 
-REPEATS = 50
 RIGID = 2
 
 
@@ -51,23 +53,41 @@ def matrices(data):
     return build(stiffness), build(mass)
 
 
+def sparse(k, m, count):
+    """Shift-invert Lanczos."""
+    return eigsh(k, k=count, M=m, sigma=-1.0, which="LM", return_eigenvectors=True)[0]
+
+
+def dense(k, m, count):
+    """LAPACK's divide and conquer on the dense matrices, the lowest eigenvalues only."""
+    return eigh(k.toarray(), m.toarray(), subset_by_index=[0, count - 1])[0]
+
+
 def main():
-    with open(sys.argv[1]) as file:
+    lines = "--lines" in sys.argv
+    with open(sys.argv[-1]) as file:
         data = json.load(file)
     k, m = matrices(data)
     ours = np.sort([omega for omega in data["omega_rad_per_s"] if omega > 0])
-    times = []
-    for _ in range(REPEATS):
-        start = time.perf_counter()
-        count = RIGID + len(ours)
-        values = eigsh(k, k=count, M=m, sigma=-1.0, which="LM", return_eigenvectors=True)[0]
-        times.append(time.perf_counter() - start)
-    theirs = np.sqrt(np.abs(np.sort(values)))
-    print(f"unknowns {k.shape[0]}, modes {len(ours)}")
-    median = statistics.median(times)
-    print(f"median: ours {1e3 * data['median_s']:.2f} ms, eigsh {1e3 * median:.2f} ms")
-    print("rigid-body modes of eigsh, rad/s (truth 0):", theirs[:RIGID])
-    print("eigsh against ours, relative:", theirs[RIGID:] / ours - 1)
+    count = RIGID + len(ours)
+    if not lines:
+        print(f"unknowns {k.shape[0]}, modes {len(ours)}, ours {1e3 * data['median_s']:.2f} ms")
+    for name, method, repeats in (("eigsh", sparse, 50), ("LAPACK", dense, 3)):
+        times = []
+        for _ in range(repeats):
+            start = time.perf_counter()
+            values = method(k, m, count)
+            times.append(time.perf_counter() - start)
+        theirs = np.sqrt(np.abs(np.sort(values)))
+        errors = theirs[RIGID:] / ours - 1
+        if lines:
+            numbers = (statistics.median(times), min(times), max(times))
+            spread = ";".join(f"{number:.9g}" for number in numbers)
+            print(f"{name};{spread};{np.max(abs(errors)):.1e}")
+            continue
+        print(f"{name}: median {1e3 * statistics.median(times):.2f} ms")
+        print("  rigid-body modes, rad/s (truth 0):", theirs[:RIGID])
+        print("  against ours, relative:", errors)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ pub enum Command {
     Poles(Poles),
     Reproduce(Reproduce),
     Methods(Compare),
+    Bench(Bench),
     Identify(Identify),
     Test(Test),
 }
@@ -153,6 +154,56 @@ Examples:
 pub struct Compare {
     #[command(flatten)]
     pub set: Set,
+}
+
+/// Measure speed and size beside other integrators, Python and SciPy; write a table and a picture
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Output files: bench.json, precision.svg, precision.png. What is not installed is left out: valgrind,
+libsundials-dev, the Python environment of `cargo ahv test`; PythonFMU is installed into target/bench.
+
+Examples:
+  cargo ahv bench                       ten minutes
+  cargo ahv bench --only precision,instructions
+  cargo ahv bench --quick               rough numbers, to see that everything runs")]
+pub struct Bench {
+    /// Only this part (may be repeated or separated by commas)
+    #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
+    pub only: Vec<BenchPart>,
+    /// Few repetitions, 100 flights and instances instead of 10,000
+    #[arg(long)]
+    pub quick: bool,
+    /// Directory for the results [default: target/bench]
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Do this many times, for callgrind to count
+    #[arg(long, hide = true)]
+    pub probe: Option<Probe>,
+    #[arg(long, hide = true, default_value_t = 1)]
+    pub calls: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum BenchPart {
+    /// Error against time, beside SUNDIALS and SciPy
+    Precision,
+    /// Instructions of a right-hand side and of a step
+    Instructions,
+    /// Steps in FMPy, beside steps that do nothing and a PythonFMU
+    Masters,
+    /// From loading the library to the first step; the modes beside SciPy
+    Start,
+    /// Library, instance, saved state
+    Size,
+    /// Many flights on all cores
+    Ensemble,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Probe {
+    Rates,
+    Outputs,
+    Steps,
 }
 
 /// Frequencies, damping and slosh displacements of the kept modes

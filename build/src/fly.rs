@@ -30,11 +30,7 @@ struct Flown {
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None => {
-            let file = package::default_output();
-            package::build(&file, false)?;
-            file
-        }
+        None => package::fresh()?,
     };
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;

@@ -1,6 +1,7 @@
 //! `cargo ahv`: describes, packages, flies and tests the ahv FMU.
 
 mod abuse;
+mod bench;
 mod cli;
 mod describe;
 mod documentation;
@@ -54,6 +55,7 @@ fn main() -> ExitCode {
         Command::Trim(options) => trim::run(&options),
         Command::Poles(options) => poles::run(&options),
         Command::Reproduce(options) => reproduce::run(&options),
+        Command::Bench(options) => bench::run(&options),
         Command::Methods(options) => methods::run(&options),
         Command::Identify(options) => identify::run(&options),
         Command::Test(options) => test::run(&options),

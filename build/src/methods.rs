@@ -2,6 +2,8 @@
 
 mod tableaus;
 
+pub use tableaus::RKF78;
+
 use crate::cli::Compare;
 use crate::table::{row, table};
 use crate::trim::{flight, model, ready};
@@ -9,16 +11,17 @@ use ahv::dop853::DOP853;
 use ahv::dynamics::{Control, NOMINAL, STATES, State, Vehicle};
 use ahv::flight::DEFAULT_TOLERANCE;
 use ahv::integrate::{Arrival, Integrator, System, Tableau};
+use ahv::trim::Trim;
 use anyhow::Result;
 use std::cell::Cell;
 
 /// Elevator against its trim value, rad, over the quarters of the flight.
-const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
+pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
 /// Length of the flight, s: the unstable vehicle keeps few digits for longer.
-const FLIGHT_S: f64 = 1.0;
+pub const FLIGHT_S: f64 = 1.0;
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Of the flight that counts as exact; flown with another method than the vehicle's own.
-const EXACT: f64 = 1e-14;
+pub const EXACT: f64 = 1e-14;
 
 struct Counted<'a> {
     vehicle: &'a Vehicle,
@@ -40,7 +43,7 @@ impl System<STATES> for Counted<'_> {
 }
 
 /// The trimmed vehicle under an elevator doublet.
-struct Problem<'a> {
+pub struct Problem<'a> {
     vehicle: &'a Vehicle,
     start: State,
     control: Control,
@@ -48,9 +51,14 @@ struct Problem<'a> {
     steps: usize,
 }
 
-impl Problem<'_> {
+impl<'a> Problem<'a> {
+    /// From trim, in equal communication steps.
+    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize) -> Self {
+        Self { vehicle, start: trim.state, control: trim.control, steps }
+    }
+
     /// Final state and right-hand sides.
-    fn fly<const S: usize>(&self, tableau: &Tableau<S>, tolerance: f64) -> (State, usize) {
+    pub fn fly<const S: usize>(&self, tableau: &Tableau<S>, tolerance: f64) -> (State, usize) {
         let calls = Cell::new(0);
         let (mut x, mut slope) = (self.start, None);
         let mut integrator = Integrator::new(tolerance, 1e-3);
@@ -72,11 +80,13 @@ impl Problem<'_> {
 
     fn cell<const S: usize>(&self, tableau: &Tableau<S>, tolerance: f64, exact: &State) -> String {
         let (x, calls) = self.fly(tableau, tolerance);
-        let error = (0..STATES)
-            .map(|i| (x[i] - exact[i]).abs() / (NOMINAL[i] + exact[i].abs()))
-            .fold(0.0, f64::max);
-        format!("{calls:6}  {error:.0e}")
+        format!("{calls:6}  {:.0e}", error(&x, exact))
     }
+}
+
+/// Largest error of a state over its nominal value plus its size.
+pub fn error(x: &State, exact: &State) -> f64 {
+    (0..STATES).map(|i| (x[i] - exact[i]).abs() / (NOMINAL[i] + exact[i].abs())).fold(0.0, f64::max)
 }
 
 /// Prints right-hand sides and error of each method for a range of tolerances.
@@ -86,15 +96,15 @@ pub fn run(options: &Compare) -> Result<()> {
     println!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state");
     println!("over its nominal value plus its size\n");
     for steps in [100, 4] {
-        let problem = Problem { vehicle, start: trim.state, control: trim.control, steps };
-        let (exact, _) = problem.fly(&tableaus::RKF78, EXACT);
+        let problem = Problem::new(vehicle, trim, steps);
+        let (exact, _) = problem.fly(&RKF78, EXACT);
         let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853"])];
         for tolerance in TOLERANCES {
             let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
             rows.push(vec![
                 format!("{tolerance:.0e}{mark}"),
                 problem.cell(&tableaus::DOPRI5, tolerance, &exact),
-                problem.cell(&tableaus::RKF78, tolerance, &exact),
+                problem.cell(&RKF78, tolerance, &exact),
                 problem.cell(&DOP853, tolerance, &exact),
             ]);
         }

@@ -14,7 +14,7 @@ use std::time::Instant;
 const REPEATS: usize = 200;
 
 /// The eigenproblem, its frequencies and the time that they took.
-fn solved_elements(build: &Build) -> Result<serde_json::Value> {
+pub fn solved_elements(build: &Build) -> Result<serde_json::Value> {
     let (beam, oscillators) = structure(&Data::embedded()?, build)?;
     let mut seconds = Vec::with_capacity(REPEATS);
     let mut omega = [0.0; MODES];

@@ -62,6 +62,13 @@ pub fn build(output: &Path, all_targets: bool) -> Result<()> {
     Ok(())
 }
 
+/// The FMU at its usual place, built anew.
+pub fn fresh() -> Result<PathBuf> {
+    let output = default_output();
+    build(&output, false)?;
+    Ok(output)
+}
+
 /// Says what is missing for a Windows library.
 pub fn can_build_for_windows() -> Result<()> {
     windows::toolchain().map(drop)

@@ -22,7 +22,7 @@ impl Flight {
         tangent.slope = None;
         tangent.sample = self.ready.as_ref().map(|ready| {
             let vehicle = &ready.vehicle;
-            let (base, (control, gust)) = (self.base(ready), self.control(ready));
+            let (base, (control, gust)) = (ready.base, self.control(ready));
             let (moved, gust_change) = Inputs::split(input_change);
             let control_change = std::array::from_fn(|i| {
                 let [min, max] = vehicle.ranges()[i];

@@ -46,7 +46,7 @@ impl ShockExpansion {
                 for (i, mode) in modes.shape.iter().enumerate() {
                     let work = |run: &AirLoads| run.generalised(|x| mode.w_at(&beam.point(x)));
                     let value = change(&work) / modes.modal_mass[i];
-                    pick(&mut elastic.force[i].elastic, value);
+                    elastic.force.elastic[k][which][i] = value;
                 }
             }
         }
@@ -62,15 +62,15 @@ pub const COMPARED: [&str; 6] =
 /// first `modes`; rows as in [`COMPARED`].
 pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
     let terms = |elastic: &Elastic| {
-        let of = |terms: &mut dyn Iterator<Item = &ElasticTerm>, which: usize| -> Vec<f64> {
-            terms.flat_map(|term| term.per[..modes].iter().map(|per| per[which])).collect()
+        let of = |term: &ElasticTerm, which: usize| -> Vec<f64> {
+            term.per[..modes].iter().map(|per| per[which]).collect()
         };
-        let row = |number: usize| match number % 3 {
-            0 => of(&mut [&elastic.lift].into_iter(), number / 3),
-            1 => of(&mut [&elastic.moment].into_iter(), number / 3),
-            _ => of(&mut elastic.force[..modes].iter().map(|force| &force.elastic), number / 3),
+        let forces = |which: usize| -> Vec<f64> {
+            let by = elastic.force.elastic[..modes].iter();
+            by.flat_map(|by| &by[which][..modes]).copied().collect()
         };
-        std::array::from_fn::<_, 6, _>(row)
+        let (lift, moment) = (&elastic.lift, &elastic.moment);
+        [of(lift, 0), of(moment, 0), forces(0), of(lift, 1), of(moment, 1), forces(1)]
     };
     let (all, others) = (terms(elastic), terms(other));
     std::array::from_fn(|row| {

@@ -1,0 +1,64 @@
+//! Measures what the vehicle costs, beside what a user would take instead. Never a test: a busy
+//! machine makes every time longer.
+
+mod chart;
+mod ensemble;
+mod instructions;
+mod masters;
+mod peers;
+mod precision;
+mod report;
+mod sizes;
+mod spread;
+mod start;
+
+use crate::cli::{Bench, BenchPart};
+use anyhow::Result;
+use report::Report;
+use std::time::Duration;
+
+/// How much is done for a figure.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// Repetitions whose median counts.
+    pub repeats: usize,
+    /// Least duration of one repetition of something short.
+    pub batch: Duration,
+    /// Flights of the ensemble, and instances in one process.
+    pub many: usize,
+}
+
+const FULL: Effort = Effort { repeats: 9, batch: Duration::from_millis(50), many: 10_000 };
+/// Enough to see that everything runs.
+const QUICK: Effort = Effort { repeats: 3, batch: Duration::from_millis(1), many: 100 };
+
+pub fn run(options: &Bench) -> Result<()> {
+    if let Some(probe) = options.probe {
+        return instructions::probe(probe, options.calls);
+    }
+    let effort = if options.quick { QUICK } else { FULL };
+    let mut report = Report::new()?;
+    for (part, name, measure) in PARTS {
+        if !options.only.is_empty() && !options.only.contains(&part) {
+            continue;
+        }
+        eprintln!("{name} ...");
+        let lines = measure(&effort, &mut report);
+        // What is missing on this machine costs its own part only.
+        if let Err(error) = lines {
+            report.left_out(name, &error);
+        }
+    }
+    report.finish(options.output.as_deref())
+}
+
+type Measure = fn(&Effort, &mut Report) -> Result<()>;
+
+const PARTS: [(BenchPart, &str, Measure); 6] = [
+    (BenchPart::Precision, "work and precision", precision::measure),
+    (BenchPart::Instructions, "instructions", instructions::measure),
+    (BenchPart::Masters, "FMPy", masters::measure),
+    (BenchPart::Start, "start-up and modes", start::measure),
+    (BenchPart::Size, "sizes", sizes::measure),
+    (BenchPart::Ensemble, "ensemble", ensemble::measure),
+];

@@ -1,0 +1,136 @@
+//! Error after one second against the time it takes: an elevator doublet on the flexible vehicle.
+
+use super::Effort;
+use super::peers;
+use super::report::Report;
+use super::spread::{Spread, seconds};
+use crate::cli::Set;
+use crate::methods::{DOUBLET, EXACT, FLIGHT_S, Problem, RKF78, error};
+use crate::trim::{flight, model, ready};
+use ahv::dop853::DOP853;
+use ahv::dynamics::State;
+use ahv::flight::{DEFAULT_TOLERANCE, Flight};
+use anyhow::Result;
+use serde::Serialize;
+
+/// Of the picture.
+pub const TOLERANCES: [&str; 5] = ["1e-4", "1e-6", "1e-8", "1e-10", "1e-12"];
+/// Communication steps of the flight: 10 ms, and only where the input jumps.
+const STEPS: [usize; 2] = [100, 4];
+
+/// One method at one tolerance.
+#[derive(Debug, Clone, Serialize)]
+pub struct Point {
+    pub method: String,
+    pub tolerance: String,
+    /// Seconds per flight of one second.
+    pub seconds: Spread,
+    /// Right-hand sides.
+    pub calls: usize,
+    /// Largest error of a state over its nominal value plus its size.
+    pub error: f64,
+}
+
+/// What `cargo ahv fly` does, without the C functions: steps with the doublet.
+pub fn fly(flight: &mut Flight, steps: usize) -> Result<State, ahv::error::Error> {
+    for step in 0..steps {
+        flight.set_input(0, DOUBLET[step * DOUBLET.len() / steps]);
+        flight.advance(FLIGHT_S * (step + 1) as f64 / steps as f64)?;
+    }
+    Ok(*flight.state())
+}
+
+pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
+    let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
+    let (vehicle, trim) = ready(&flight)?;
+    let (vehicle, trim) = (vehicle.clone(), *trim);
+    let problem = |steps| Problem::new(&vehicle, &trim, steps);
+    let (exact, _) = problem(STEPS[1]).fly(&RKF78, EXACT);
+    let mut points = Vec::new();
+    for steps in STEPS {
+        for tolerance in TOLERANCES {
+            flight.set_experiment(0.0, tolerance.parse()?);
+            let start = flight.snapshot();
+            let reached = fly(&mut flight, steps)?;
+            let seconds =
+                seconds(effort, || flight.rewind(&start).and_then(|()| fly(&mut flight, steps)));
+            flight.rewind(&start)?;
+            let (_, calls) = problem(steps).fly(&DOP853, tolerance.parse()?);
+            points.push(Point {
+                method: format!("ours, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
+                tolerance: tolerance.to_string(),
+                seconds,
+                calls,
+                error: error(&reached, &exact),
+            });
+        }
+    }
+    match peers::sundials(effort, &exact) {
+        Ok(more) => points.extend(more),
+        Err(why) => report.left_out("SUNDIALS", &why),
+    }
+    match peers::scipy(effort) {
+        Ok(more) => points.extend(more),
+        Err(why) => report.left_out("SciPy", &why),
+    }
+    let default = points[..TOLERANCES.len()]
+        .iter()
+        .find(|point| point.tolerance.parse() == Ok(DEFAULT_TOLERANCE))
+        .cloned();
+    let mut methods: Vec<_> = points.iter().map(|point| point.method.clone()).collect();
+    methods.dedup();
+    for method in methods {
+        let own: Vec<_> = points.iter().filter(|point| point.method == method).collect();
+        for point in own.iter().filter(|point| point.tolerance == "1e-8") {
+            let mut note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
+            if let Some(ours) = default.as_ref().filter(|ours| ours.method != method) {
+                match time_for(&own, ours.error) {
+                    Some(time) => {
+                        let ratio = time / ours.seconds.least;
+                        note += &format!("; {ratio:.1} x our time at our error");
+                    }
+                    None => note += "; never as exact as ours",
+                }
+            }
+            let what = format!("1 s at 1e-8, {method}");
+            report.line(what, point.seconds.scaled(1e6), "us", note);
+        }
+    }
+    report.points = points;
+    Ok(())
+}
+
+/// Seconds for an error: between two points both fall as powers of each other; looser than the
+/// first point costs no less. Least times: another process on a core only ever adds some.
+fn time_for(points: &[&Point], error: f64) -> Option<f64> {
+    let first = points.first()?;
+    if first.error <= error {
+        return Some(first.seconds.least);
+    }
+    points.windows(2).find(|pair| pair[1].error <= error).map(|pair| {
+        let [x0, x1] = [pair[0].error.ln(), pair[1].error.ln()];
+        let [y0, y1] = [pair[0], pair[1]].map(|point| point.seconds.least.ln());
+        (y0 + (y1 - y0) * (error.ln() - x0) / (x1 - x0)).exp()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_for_an_error_is_read_between_the_points() {
+        let point = |error: f64, seconds: f64| Point {
+            method: String::new(),
+            tolerance: String::new(),
+            seconds: Spread::exact(seconds),
+            calls: 0,
+            error,
+        };
+        let points = [point(1e-2, 1.0), point(1e-4, 4.0)];
+        let points: Vec<_> = points.iter().collect();
+        assert!((time_for(&points, 1e-3).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(time_for(&points, 1.0), Some(1.0));
+        assert_eq!(time_for(&points, 1e-9), None);
+    }
+}

@@ -1,0 +1,124 @@
+//! The table of a run, and the circumstances under which it was made.
+
+use super::chart;
+use super::precision::Point;
+use super::spread::Spread;
+use crate::table::{number, row, table};
+use crate::workspace::{root, shown, target, write};
+use anyhow::Result;
+use serde::Serialize;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+/// One line of the table.
+#[derive(Debug, Serialize)]
+pub struct Line {
+    pub what: String,
+    pub unit: &'static str,
+    #[serde(flatten)]
+    pub value: Spread,
+    /// Aim or comparison.
+    pub note: String,
+}
+
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// Processor, cores and how busy they were.
+    pub machine: String,
+    /// Of the source; `+` if files have changed since.
+    pub commit: String,
+    /// Compilers and tools that were used.
+    pub versions: Vec<String>,
+    pub lines: Vec<Line>,
+    /// What could not be measured here, and why.
+    pub left_out: Vec<String>,
+    /// Error against time, for the picture.
+    pub points: Vec<Point>,
+}
+
+/// First line of what a program says; none if there is no such program.
+pub fn says(program: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new(program).args(arguments).current_dir(root()).output().ok()?;
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    output.status.success().then(|| text.lines().next().unwrap_or_default().trim().to_string())
+}
+
+fn machine() -> String {
+    let information = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let name = information.lines().find_map(|line| line.strip_prefix("model name"));
+    let name =
+        name.map_or(std::env::consts::ARCH, |line| line.trim_start_matches([' ', '\t', ':']));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load = load.split(' ').next().unwrap_or("unknown");
+    format!("{name}, {cores} cores, load {load} before the run")
+}
+
+impl Report {
+    pub fn new() -> Result<Self> {
+        let commit = says("git", &["describe", "--always", "--dirty=+"]);
+        let versions = [
+            says("rustc", &["--version"]),
+            says("cc", &["--version"]),
+            says("valgrind", &["--version"]),
+        ];
+        Ok(Self {
+            machine: machine(),
+            commit: commit.unwrap_or_else(|| "unknown".into()),
+            versions: versions.into_iter().flatten().collect(),
+            lines: Vec::new(),
+            left_out: Vec::new(),
+            points: Vec::new(),
+        })
+    }
+
+    /// Adds a line; values in `unit`.
+    pub fn line(
+        &mut self,
+        what: impl Into<String>,
+        value: Spread,
+        unit: &'static str,
+        note: impl Into<String>,
+    ) {
+        let line = Line { what: what.into(), unit, value, note: note.into() };
+        eprintln!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
+        self.lines.push(line);
+    }
+
+    pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
+        let text = format!("{what}: {why:#}");
+        eprintln!("  left out: {text}");
+        self.left_out.push(text);
+    }
+
+    /// Prints the table; writes bench.json and, with points, precision.svg and .png.
+    pub fn finish(&self, directory: Option<&Path>) -> Result<()> {
+        let directory = directory.map_or_else(|| target().join("bench"), Path::to_path_buf);
+        println!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "));
+        let mut rows = vec![row(["", "median", "least", "largest", "unit", "note"])];
+        for Line { what, unit, value, note } in &self.lines {
+            let mut cells = vec![what.clone(), number(value.median)];
+            let varies = value.least != value.largest;
+            cells.extend([value.least, value.largest].map(|v| match varies {
+                true => number(v),
+                false => String::new(),
+            }));
+            cells.extend([(*unit).to_string(), note.clone()]);
+            rows.push(cells);
+        }
+        print!("{}", table(&rows));
+        for text in &self.left_out {
+            println!("  left out: {text}");
+        }
+        let json = directory.join("bench.json");
+        write(&json, serde_json::to_string_pretty(self)?)?;
+        println!("\n{}", shown(&json));
+        if !self.points.is_empty() {
+            for file in chart::write(&self.points, &directory)? {
+                println!("{}", shown(&file));
+            }
+        }
+        Ok(())
+    }
+}

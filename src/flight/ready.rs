@@ -1,0 +1,71 @@
+//! What the parameters alone decide: vehicle, trim, and what the inputs are added to.
+
+use crate::dynamics::{Control, RIGID, State, Vehicle};
+use crate::error::Error;
+use crate::parameters::{InputMode, Parameters};
+use crate::trim::{Trim, trim};
+use crate::vehicle::Data;
+
+/// An initialised flight's vehicle.
+#[derive(Debug, Clone)]
+pub struct Ready {
+    pub vehicle: Vehicle,
+    pub trim: Trim,
+    /// What the inputs are added to: the trim where they are deviations.
+    pub base: Control,
+}
+
+impl Ready {
+    /// Builds the vehicle and finds its initial state.
+    fn new(data: &Data, parameters: &Parameters) -> Result<Self, Error> {
+        let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0 } = *parameters;
+        let vehicle = Vehicle::new(data, &build)?;
+        let trim = if trimmed {
+            trim(&vehicle, &build.condition)?
+        } else {
+            let mut state = build.condition.start(&vehicle.atmosphere);
+            state[3] = alpha0;
+            state[4] = q0;
+            for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
+                state[RIGID + 2 * i] = eta;
+            }
+            if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &state) {
+                return Err(start_outside(&vehicle, &state));
+            }
+            Trim { state, control: [0.0; 2] }
+        };
+        let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
+        let base = if deviation { trim.control } else { [0.0; 2] };
+        Ok(Self { vehicle, trim, base })
+    }
+
+    /// What is in the slot; an empty one is filled, and the state becomes the initial one.
+    pub fn of<'a>(
+        slot: &'a mut Option<Self>,
+        state: &mut State,
+        data: &Data,
+        parameters: &Parameters,
+    ) -> Result<&'a Self, Error> {
+        match slot {
+            Some(ready) => Ok(ready),
+            None => {
+                let ready = Self::new(data, parameters)?;
+                *state = ready.trim.state;
+                Ok(slot.insert(ready))
+            }
+        }
+    }
+}
+
+/// Start values without trim, by the names of their parameters.
+fn start_outside(vehicle: &Vehicle, state: &State) -> Error {
+    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
+    let variable = match tightest.variable {
+        "h" => "altitude0",
+        "mach" => "mach0",
+        _ => "alpha0",
+    };
+    let [min, max] = tightest.limits;
+    let expected = format!("the curve fits hold in [{min:.6}, {max:.6}]");
+    Error::Value { variable: variable.into(), value: tightest.value, expected }
+}
