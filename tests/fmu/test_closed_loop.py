@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import subprocess
 import sys
@@ -157,3 +158,25 @@ def test_a_missing_package_is_named_with_the_command_that_brings_it(
     run = fly(package, tmp_path, PYTHONPATH=str(tmp_path))
     assert run.returncode == 1
     assert "control is missing: pip install" in run.stderr
+
+
+def test_sloshing_example_shows_a_redesign_that_copes(package: Package, tmp_path: Path) -> None:
+    """Two points of each sweep; the redesign is stable where the design without slosh is not."""
+    run = subprocess.run(
+        [sys.executable, str(EXAMPLE / "sloshing.py"), "--fmu", str(package.path)]
+        + ["--output", str(tmp_path), "--points", "2", "--stop", "20"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stdout + run.stderr
+    with (tmp_path / "margins.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 4 * 2 * 4
+    for row in rows:
+        if row["law"] == "redesigned":
+            assert float(row["phase_deg"]) > 30.0 and float(row["gain_down_db"]) < -4.0
+    slow = [r for r in rows if r["sweep"].endswith("0.01") and r["law"] == "rigid"]
+    assert all(float(row["growth_per_s"]) > 0.0 for row in slow)
+    for name in ("margins.png", "hard.png"):
+        assert (tmp_path / name).stat().st_size > 10_000
