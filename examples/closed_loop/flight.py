@@ -96,6 +96,15 @@ class Vehicle:
         self._fmu.fmi2GetReal(self._fmu.component, self._out, size, pointer(self._values))
         return self._values.copy()
 
+    def rates(self) -> np.ndarray:
+        """Their first derivatives, as the FMU states them."""
+        size = len(self._values)
+        slopes, orders = np.zeros(size), (ctypes.c_int * size)(*[1] * size)
+        self._fmu.fmi2GetRealOutputDerivatives(
+            self._fmu.component, self._out, size, orders, pointer(slopes)
+        )
+        return slopes
+
     def save(self) -> tuple[object, float]:
         """State to go back to."""
         return self._fmu.getFMUState(), self.time

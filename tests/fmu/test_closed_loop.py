@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import coupling
 import design
 from harness import Package
 from masters import NAMES, MasterFailed, fly_libcosim
@@ -24,18 +25,25 @@ BESIDE = 0.02
 STOP_S = 8.0
 
 
-def fly(
-    package: Package, output: Path, *options: str, **environment: str
+def example(
+    script: str, package: Package, output: Path, *options: str, **environment: str
 ) -> subprocess.CompletedProcess[str]:
-    """Run the example."""
-    command = [sys.executable, str(EXAMPLE / "fly.py"), "--fmu", str(package.path)]
+    """Run a script of the example."""
+    command = [sys.executable, str(EXAMPLE / script), "--fmu", str(package.path)]
     return subprocess.run(
-        [*command, "--output", str(output), "--stop", str(STOP_S), *options],
+        [*command, "--output", str(output), *options],
         capture_output=True,
         text=True,
         env=os.environ | environment,
         check=False,
     )
+
+
+def fly(
+    package: Package, output: Path, *options: str, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    """Run the short flight."""
+    return example("fly.py", package, output, "--stop", str(STOP_S), *options, **environment)
 
 
 @pytest.fixture(scope="module")
@@ -162,13 +170,7 @@ def test_a_missing_package_is_named_with_the_command_that_brings_it(
 
 def test_sloshing_example_shows_a_redesign_that_copes(package: Package, tmp_path: Path) -> None:
     """Two points of each sweep; the redesign is stable where the design without slosh is not."""
-    run = subprocess.run(
-        [sys.executable, str(EXAMPLE / "sloshing.py"), "--fmu", str(package.path)]
-        + ["--output", str(tmp_path), "--points", "2", "--stop", "20"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    run = example("sloshing.py", package, tmp_path, "--points", "2", "--stop", "20")
     assert run.returncode == 0, run.stdout + run.stderr
     with (tmp_path / "margins.csv").open(encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
@@ -180,3 +182,30 @@ def test_sloshing_example_shows_a_redesign_that_copes(package: Package, tmp_path
     assert all(float(row["growth_per_s"]) > 0.0 for row in slow)
     for name in ("margins.png", "hard.png"):
         assert (tmp_path / name).stat().st_size > 10_000
+
+
+def test_signals_that_move_within_a_step_raise_the_order_of_the_coupling(package: Package) -> None:
+    folder, stop_s = str(package.folder), 2.0
+    exact = coupling.fixed(folder, coupling.REFERENCE_S, coupling.BOTH, stop_s)
+    for how, order in ((coupling.HOLD, 1.0), (coupling.BOTH, 2.0)):
+        long, short = (
+            coupling.error(coupling.fixed(folder, size, how, stop_s), exact)
+            for size in (0.01, 0.005)
+        )
+        assert np.log2(long / short) == pytest.approx(order, abs=0.4), how
+
+
+def test_a_master_that_takes_steps_back_needs_fewer_for_the_same_error(package: Package) -> None:
+    folder, stop_s, size = str(package.folder), 4.0, 0.005
+    exact = coupling.fixed(folder, coupling.REFERENCE_S, coupling.BOTH, stop_s)
+    varied = coupling.adaptive(folder, np.array([1e-3, 1e-6, 1e-6]), stop_s)
+    assert varied.rejected > 0 and varied.rows[-1, 0] == pytest.approx(stop_s, abs=1e-9)
+    assert len(varied.rows) < 0.5 * stop_s / size
+    fixed = coupling.error(coupling.fixed(folder, size, coupling.BOTH, stop_s), exact)
+    assert coupling.error(varied.rows, exact) < 2.0 * fixed
+
+
+def test_coupling_example_runs(package: Package, tmp_path: Path) -> None:
+    run = example("coupling.py", package, tmp_path, "--stop", "1")
+    assert run.returncode == 0, run.stdout + run.stderr
+    assert "rejected" in run.stdout and (tmp_path / "coupling.png").stat().st_size > 10_000
