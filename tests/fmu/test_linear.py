@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import runpy
-import shutil
 import subprocess
 from pathlib import Path
 
@@ -117,12 +116,8 @@ def test_what_has_no_derivative_is_refused_by_name(
         assert said in flight.log[-1].text
 
 
-def test_example_gives_the_four_matrices(
-    package: Package, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (tmp_path / "target").mkdir()
-    shutil.copy(package.path, tmp_path / "target/ahv.fmu")
-    monkeypatch.chdir(tmp_path)
-    shown = runpy.run_path(str(ROOT / "examples/linear_model.py"))
-    assert shown["A"].shape == (len(STATES), len(STATES))
-    assert np.array_equal(shown["C"].sum(axis=1), [1.0, 1.0]) and not shown["D"].any()
+def test_example_gives_the_four_matrices(package: Package) -> None:
+    model = runpy.run_path(str(ROOT / "examples/linear_model.py"))["linear_model"]
+    shown = model(str(package.folder), configuration=SLOSH_BEAM)
+    assert shown.states == list(STATES) and shown.A.shape == (len(STATES), len(STATES))
+    assert np.array_equal(shown.C.sum(axis=1), [1.0, 1.0]) and not shown.D.any()

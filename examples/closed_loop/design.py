@@ -1,0 +1,156 @@
+"""Design of the autopilot and margins of the loop, with python-control."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+import control as ct
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+from law import PERIOD_S, Law
+from linear_model import LinearModel, linear_model
+
+MEASURED = ("V", "gamma", "q")
+RIGID, EVEN, SLOSH = 1, 2, 3
+DEG = np.pi / 180
+# Kept by the design; height has next to no part in what V, gamma and q do within seconds.
+RIGID_STATES = ["V", "gamma", "alpha", "q"]
+FLEXIBLE_STATES = [f"eta{i}{suffix}" for i in (1, 2, 3) for suffix in ("", "_dot")]
+SLOSH_STATES = [f"eta_slosh{i}{suffix}" for i in (1, 2) for suffix in ("", "_dot")]
+STATES = {
+    RIGID: RIGID_STATES,
+    EVEN: RIGID_STATES + FLEXIBLE_STATES,
+    SLOSH: RIGID_STATES + FLEXIBLE_STATES + SLOSH_STATES,
+}
+# Bryson's rule: what is worth as much as what. Errors of V and gamma, their integrals over the
+# seconds in which they should vanish, and what the actuators may do for it.
+ERROR = np.array([5.0, 0.5 * DEG])
+VANISH_S = np.array([20.0, 5.0])
+EFFORT = np.array([1.0 * DEG, 0.1])
+# Standard deviations per sample: disturbances like inputs (as loop transfer recovery wants them),
+# disturbances of V, gamma and q, and noise of the sensors.
+INPUT_NOISE = np.array([1.0 * DEG, 0.05])
+STATE_NOISE = {"V": 0.01, "gamma": 0.001 * DEG, "q": 0.01 * DEG}
+SENSOR_NOISE = np.array([0.5, 0.02 * DEG, 0.02 * DEG])
+# Limits of the vehicle's inputs, absolute.
+DELTA_E_LIMIT, PHI_LIMIT = 20.0 * DEG, 1.5
+
+
+def model(folder: str, **parameters: float) -> LinearModel:
+    """Linear model of the FMU unzipped in `folder`, measured like the autopilot does."""
+    return linear_model(folder, MEASURED, **parameters)
+
+
+def sampled(full: LinearModel, states: Sequence[str]) -> ct.StateSpace:
+    """The model with these states only, inputs held over a period."""
+    kept = [full.states.index(name) for name in states]
+    plant = ct.ss(full.A[np.ix_(kept, kept)], full.B[kept], full.C[:, kept], full.D)
+    return ct.sample_system(plant, PERIOD_S, "zoh")
+
+
+def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1.0) -> Law:
+    """LQR with integral action and a Kalman filter, for a model of this configuration."""
+    states = STATES[configuration]
+    assert tuple(full.outputs) == MEASURED and states[:2] == ["V", "gamma"]
+    plant, n = sampled(full, states), len(states)
+    weight = np.zeros(n + 2)
+    weight[:2], weight[n:] = 1 / ERROR**2, 1 / (ERROR * VANISH_S) ** 2
+    gain, _, _ = ct.dlqr(
+        plant, np.diag(weight), np.diag(1 / EFFORT**2), integral_action=PERIOD_S * plant.C[:2]
+    )
+    noise = plant.B @ np.diag((input_noise * INPUT_NOISE) ** 2) @ plant.B.T
+    for name, deviation in STATE_NOISE.items():
+        noise[states.index(name), states.index(name)] += deviation**2
+    kalman, _, _ = ct.dlqe(plant.A, np.eye(n), plant.C, noise, np.diag(SENSOR_NOISE**2))
+    trim = full.trim
+    at_trim = np.array([trim["delta_e_trim"], trim["phi_trim"]])
+    return Law(
+        period_s=PERIOD_S,
+        A=plant.A,
+        B=plant.B,
+        C=plant.C,
+        K=gain[:, :n],
+        Ki=gain[:, n:],
+        L=plant.A @ kalman,
+        level=np.array([trim[name] for name in MEASURED]),
+        low=np.array([-DELTA_E_LIMIT, 0.0]) - at_trim,
+        high=np.array([DELTA_E_LIMIT, PHI_LIMIT]) - at_trim,
+    )
+
+
+def linear(law: Law) -> ct.StateSpace:
+    """The law from V, gamma, q to delta_e, phi, about level flight and within the limits."""
+    n = len(law.A)
+    a = np.block(
+        [
+            [law.A - law.B @ law.K - law.L @ law.C, -law.B @ law.Ki],
+            [np.zeros((2, n)), np.eye(2)],
+        ]
+    )
+    b = np.vstack([law.L, law.period_s * np.eye(3)[:2]])
+    c = -np.hstack([law.K, law.Ki])
+    return ct.ss(a, b, c, np.zeros((2, 3)), law.period_s)
+
+
+def poles(plant: ct.StateSpace, law: Law, gain: np.ndarray | None = None) -> np.ndarray:
+    """Poles of the closed loop, rad/s; commands multiplied by `gain`, shape (2,)."""
+    pilot = linear(law)
+    into = plant.B @ np.diag(np.ones(2) if gain is None else gain) @ pilot.C
+    closed = np.block([[plant.A, into], [pilot.B @ plant.C, pilot.A]])
+    return np.log(np.linalg.eigvals(closed).astype(complex)) / law.period_s
+
+
+class Margins(NamedTuple):
+    """Margins of the loop broken at one actuator, the other one closed.
+
+    `gain_down_db`, `gain_up_db`: the loop gain may change by so much; `phase_deg`; `distance`:
+    least distance of the Nyquist curve from -1. All are NaN if the loop is unstable.
+    `growth_per_s`: real part of the rightmost pole; `least_damping` of the poles that swing.
+    """
+
+    gain_down_db: float
+    gain_up_db: float
+    phase_deg: float
+    distance: float
+    growth_per_s: float
+    least_damping: float
+
+
+def margins(plant: ct.StateSpace, law: Law, actuator: int = 0) -> Margins:
+    """Margins at delta_e (0) or phi (1)."""
+    ends = poles(plant, law)
+    swing = ends[np.abs(ends.imag) > 0.5]
+    growth, damping = ends.real.max(), min(-swing.real / np.abs(swing), default=1.0)
+    if growth >= 0.0:
+        return Margins(*[np.nan] * 4, growth, damping)
+    # Dense where lightly damped modes make the curve turn, and up to half the sampling rate.
+    own = np.abs(poles(plant, law).imag)
+    near = (own[own > 1.0, None] * np.linspace(0.9, 1.1, 81)).ravel()
+    rates = np.unique(np.concatenate([np.geomspace(1e-3, np.pi / PERIOD_S, 2000), near]))
+    rates = rates[rates < 0.999 * np.pi / PERIOD_S]
+    z = np.exp(1j * rates * PERIOD_S)
+    loop = -response(linear(law), z) @ response(plant, z)
+    i, o = actuator, 1 - actuator
+    broken = loop[:, i, i] - loop[:, i, o] * loop[:, o, i] / (1 + loop[:, o, o])
+    magnitude, phase = np.abs(broken), np.degrees(np.unwrap(np.angle(broken)))
+    gains, phases, *_ = ct.stability_margins((magnitude, phase, rates), returnall=True)
+    decibels = 20 * np.log10(np.asarray(gains))
+    return Margins(
+        max(decibels[decibels < 0], default=-np.inf),
+        min(decibels[decibels > 0], default=np.inf),
+        min(np.abs(phases), default=np.inf),
+        np.abs(1 + broken).min(),
+        growth,
+        damping,
+    )
+
+
+def response(system: ct.StateSpace, z: np.ndarray) -> np.ndarray:
+    """Frequency response at the points z, shape (points, outputs, inputs)."""
+    shifted = z[:, None, None] * np.eye(len(system.A)) - system.A
+    return system.C @ np.linalg.solve(shifted, np.broadcast_to(system.B, (len(z), *system.B.shape)))

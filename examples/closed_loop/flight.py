@@ -1,0 +1,170 @@
+"""The FMU in a tight loop: one flight, an autopilot in numpy beside it."""
+
+from __future__ import annotations
+
+import ctypes
+from types import TracebackType
+from typing import NamedTuple, Self
+
+import numpy as np
+from fmpy import read_model_description
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE, fmi2OK
+
+from law import Autopilot, Law
+
+MEASURED = ("V", "gamma", "q")
+COMMANDS = ("delta_e", "phi")
+
+
+class Vehicle:
+    """An instance of the FMU unzipped in `folder`, trimmed with these parameters.
+
+    `said` is its last message. Calls that do not return fmi2OK raise FMICallException.
+    """
+
+    def __init__(self, folder: str, outputs: tuple[str, ...] = (), **parameters: float) -> None:
+        description = read_model_description(folder)
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.said, self.time = "", 0.0
+        self._fmu = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=folder,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="vehicle",
+        )
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
+        self._fmu.instantiate(callbacks=callbacks)
+        try:
+            for name, value in parameters.items():
+                real = self.variables[name].type == "Real"
+                call = self._fmu.setReal if real else self._fmu.setInteger
+                call([self.variables[name].valueReference], [value])
+            self._fmu.setupExperiment()
+            self._fmu.enterInitializationMode()
+            self._fmu.exitInitializationMode()
+        except FMICallException:
+            self.close()
+            raise
+        # Buffers made once: a step then costs four plain C calls.
+        self.outputs = (*MEASURED, *outputs)
+        self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
+        self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
+
+    def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
+        if status != fmi2OK:
+            self.said = text.decode()
+
+    def _references(self, names: tuple[str, ...]) -> ctypes.Array:
+        references = [self.variables[name].valueReference for name in names]
+        return (ctypes.c_uint32 * len(names))(*references)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Free the instance."""
+        self._fmu.freeInstance()
+
+    def command(self, commands: np.ndarray, rates: np.ndarray | None = None) -> None:
+        """Set delta_e, rad, and phi; `rates` per second if they move within the next step."""
+        self._commands[:] = commands
+        self._fmu.fmi2SetReal(self._fmu.component, self._into, 2, pointer(self._commands))
+        if rates is not None:
+            slopes, orders = np.array(rates, dtype=float), (ctypes.c_int * 2)(1, 1)
+            self._fmu.fmi2SetRealInputDerivatives(
+                self._fmu.component, self._into, 2, orders, pointer(slopes)
+            )
+
+    def step(self, size_s: float) -> None:
+        """One communication step."""
+        self._fmu.fmi2DoStep(self._fmu.component, self.time, size_s, 0)
+        self.time += size_s
+
+    def read(self) -> np.ndarray:
+        """Values of `outputs` now."""
+        size = len(self._values)
+        self._fmu.fmi2GetReal(self._fmu.component, self._out, size, pointer(self._values))
+        return self._values.copy()
+
+    def rates(self) -> np.ndarray:
+        """Their first derivatives, as the FMU states them."""
+        size = len(self._values)
+        slopes, orders = np.zeros(size), (ctypes.c_int * size)(*[1] * size)
+        self._fmu.fmi2GetRealOutputDerivatives(
+            self._fmu.component, self._out, size, orders, pointer(slopes)
+        )
+        return slopes
+
+    def save(self) -> tuple[object, float]:
+        """State to go back to."""
+        return self._fmu.getFMUState(), self.time
+
+    def restore(self, state: tuple[object, float]) -> None:
+        """Go back."""
+        self._fmu.setFMUState(state[0])
+        self.time = state[1]
+
+    def forget(self, state: tuple[object, float]) -> None:
+        """Free a saved state."""
+        self._fmu.freeFMUState(state[0])
+
+
+def pointer(values: np.ndarray) -> ctypes.POINTER(ctypes.c_double):
+    """Of an array of doubles, for C."""
+    return values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
+
+
+class Flight(NamedTuple):
+    """Rows of time, V, gamma, q, further outputs, delta_e, phi; why it ended early, or nothing."""
+
+    rows: np.ndarray
+    ended: str
+    pilot: Autopilot
+
+
+def wanted(manoeuvre: np.ndarray, stop_s: float, period_s: float) -> np.ndarray:
+    """What the manoeuvre wants at every communication point, shape (steps, 2)."""
+    times = np.arange(round(stop_s / period_s)) * period_s
+    columns = [
+        np.interp(times, manoeuvre["time_s"], manoeuvre[name])
+        for name in ("V_change", "gamma_wanted")
+    ]
+    return np.column_stack(columns)
+
+
+def fly(
+    folder: str,
+    law: Law,
+    commands: np.ndarray,
+    outputs: tuple[str, ...] = (),
+    **parameters: float,
+) -> Flight:
+    """Fly `commands`, shape (steps, 2), in closed loop.
+
+    What the law calls level flight is that of this vehicle, as if it had been trimmed before.
+    """
+    rows, ended, pilot = [], "", Autopilot(law)
+    with Vehicle(folder, outputs, **parameters) as vehicle:
+        values, held = vehicle.read(), np.zeros(2)
+        level = values[:3] - law.level
+        try:
+            for wish in commands:
+                vehicle.command(held)
+                vehicle.step(law.period_s)
+                held = pilot.step(values[:3] - level, wish)
+                values = vehicle.read()
+                rows.append([vehicle.time, *values, *held])
+        except FMICallException:
+            ended = vehicle.said
+    width = 3 + len(vehicle.outputs)
+    return Flight(np.array(rows).reshape(-1, width), ended, pilot)

@@ -1,0 +1,92 @@
+"""The autopilot's law: a Kalman filter, state feedback and two integrators, in numpy.
+
+One law serves all: the FMU (autopilot.py), the margins (design.py) and the ensemble.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+# The design's period, and the masters' communication step.
+PERIOD_S = 0.01
+
+
+@dataclass
+class Law:
+    """Numbers of the law: n states of the design model, inputs delta_e and phi.
+
+    Between two communication points t_k and t_k + `period_s` the FMU is given what was measured at
+    t_k and answers with the command for t_k + `period_s`: a filter in predictor form knows that.
+    """
+
+    period_s: float
+    A: np.ndarray  # (n, n) discrete design model
+    B: np.ndarray  # (n, 2)
+    C: np.ndarray  # (3, n) measured: V m/s, gamma rad, q rad/s
+    K: np.ndarray  # (2, n) state feedback
+    Ki: np.ndarray  # (2, 2) on the integrals of the errors of V, m, and gamma, rad s
+    L: np.ndarray  # (n, 3) Kalman filter
+    level: np.ndarray  # (3,) what is measured in level flight
+    low: np.ndarray  # (2,) smallest command, as a deviation from trim, rad and 1
+    high: np.ndarray  # (2,) largest
+
+    def save(self, path: Path) -> None:
+        """Write the numbers as JSON."""
+        values = {name: np.asarray(value).tolist() for name, value in asdict(self).items()}
+        path.write_text(json.dumps(values), encoding="utf-8")
+
+    @classmethod
+    def load(cls, path: Path) -> Law:
+        """Read what `save` wrote."""
+        values = json.loads(path.read_text(encoding="utf-8"))
+        period_s = values.pop("period_s")
+        return cls(period_s, **{name: np.array(value) for name, value in values.items()})
+
+
+@dataclass
+class Autopilot:
+    """The law in motion. `missed` counts measurements that were none, `saturated` clipped steps."""
+
+    law: Law
+    estimate: np.ndarray = field(init=False)
+    integral: np.ndarray = field(init=False)
+    command: np.ndarray = field(init=False)
+    missed: int = 0
+    saturated: int = 0
+
+    def __post_init__(self) -> None:
+        self.estimate = np.zeros(len(self.law.A))
+        self.integral, self.command = np.zeros(2), np.zeros(2)
+
+    def step(self, measured: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+        """Command for the next communication point.
+
+        `measured`: V, gamma, q now; `wanted`: change of V and value of gamma. A measurement that is
+        not finite, or no speed at all, is not believed: the model alone carries the estimate on.
+        """
+        law = self.law
+        deviation = measured - law.level
+        predicted = law.A @ self.estimate + law.B @ self.command
+        if np.isfinite(measured).all() and measured[0] > 0.0:
+            predicted += law.L @ (deviation - law.C @ self.estimate)
+            error = deviation[:2] - wanted
+        else:
+            self.missed += 1
+            error = np.zeros(2)
+        # V and gamma are the first two states of every design model.
+        away = predicted.copy()
+        away[:2] -= wanted
+        integral = self.integral + law.period_s * error
+        free = -law.K @ away - law.Ki @ integral
+        command = np.clip(free, law.low, law.high)
+        if np.array_equal(command, free):
+            # Otherwise the integrators wait: they would wind up against the stop.
+            self.integral = integral
+        else:
+            self.saturated += 1
+        self.estimate, self.command = predicted, command
+        return command
