@@ -1,7 +1,7 @@
 //! Which compiler makes the library for Windows.
 
 use super::platform::WINDOWS;
-use crate::workspace::{cargo, root};
+use crate::workspace::{cargo, root, target};
 use anyhow::{Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -25,7 +25,7 @@ pub struct Toolchain {
 pub fn toolchain() -> Result<Toolchain> {
     let missing = |what: &str| anyhow!("win64 is not in it: {what}; {HOW_TO_GET}");
     if answer(Path::new(LINKER), &["--version"]).is_none() {
-        return Err(missing("the linker x86_64-w64-mingw32-gcc is missing"));
+        return Err(missing(&format!("the linker {LINKER} is missing")));
     }
     let own = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
     let (mut command, std) = if has_target(&own) {
@@ -38,7 +38,11 @@ pub fn toolchain() -> Result<Toolchain> {
     };
     command
         .args(["--target", WINDOWS.triple])
-        .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", LINKER);
+        .env(
+            "CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER",
+            root().join("build/windows/relative-gcc.sh"),
+        )
+        .env("AHV_TARGET", target());
     Ok(Toolchain { command, std })
 }
 
