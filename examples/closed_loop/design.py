@@ -121,8 +121,8 @@ class Margins(NamedTuple):
     least_damping: float
 
 
-def margins(plant: ct.StateSpace, law: Law, actuator: int = 0) -> Margins:
-    """Margins at delta_e (0) or phi (1)."""
+def margins(plant: ct.StateSpace, law: Law, actuator: int = 0, points: int = 2000) -> Margins:
+    """Margins at delta_e (0) or phi (1), from so many frequencies and more beside the modes."""
     ends = poles(plant, law)
     swing = ends[np.abs(ends.imag) > 0.5]
     growth, damping = ends.real.max(), min(-swing.real / np.abs(swing), default=1.0)
@@ -130,8 +130,8 @@ def margins(plant: ct.StateSpace, law: Law, actuator: int = 0) -> Margins:
         return Margins(*[np.nan] * 4, growth, damping)
     # Dense where lightly damped modes make the curve turn, and up to half the sampling rate.
     own = np.abs(poles(plant, law).imag)
-    near = (own[own > 1.0, None] * np.linspace(0.9, 1.1, 81)).ravel()
-    rates = np.unique(np.concatenate([np.geomspace(1e-3, np.pi / PERIOD_S, 2000), near]))
+    near = (own[own > 1.0, None] * np.linspace(0.9, 1.1, points // 50 * 2 + 1)).ravel()
+    rates = np.unique(np.concatenate([np.geomspace(1e-3, np.pi / PERIOD_S, points), near]))
     rates = rates[rates < 0.999 * np.pi / PERIOD_S]
     z = np.exp(1j * rates * PERIOD_S)
     loop = -response(linear(law), z) @ response(plant, z)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from functools import cache
 from types import TracebackType
 from typing import NamedTuple, Self
 
@@ -17,14 +18,21 @@ MEASURED = ("V", "gamma", "q")
 COMMANDS = ("delta_e", "phi")
 
 
+described = cache(read_model_description)
+
+
+class NoFlight(Exception):
+    """The FMU refused its parameters or found no trim; its own message."""
+
+
 class Vehicle:
-    """An instance of the FMU unzipped in `folder`, trimmed with these parameters.
+    """An instance of the FMU unzipped in `folder`, trimmed with these parameters; or NoFlight.
 
     `said` is its last message. Calls that do not return fmi2OK raise FMICallException.
     """
 
     def __init__(self, folder: str, outputs: tuple[str, ...] = (), **parameters: float) -> None:
-        description = read_model_description(folder)
+        description = described(folder)
         self.variables = {v.name: v for v in description.modelVariables}
         self.said, self.time = "", 0.0
         self._fmu = FMU2Slave(
@@ -44,12 +52,13 @@ class Vehicle:
             self._fmu.setupExperiment()
             self._fmu.enterInitializationMode()
             self._fmu.exitInitializationMode()
-        except FMICallException:
+        except FMICallException as error:
             self.close()
-            raise
-        # Buffers made once: a step then costs four plain C calls.
+            raise NoFlight(self.said or str(error)) from error
+        # Buffers and pointers made once: a step then costs three plain C calls.
         self.outputs = (*MEASURED, *outputs)
         self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
+        self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
         self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
 
     def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
@@ -78,7 +87,7 @@ class Vehicle:
     def command(self, commands: np.ndarray, rates: np.ndarray | None = None) -> None:
         """Set delta_e, rad, and phi; `rates` per second if they move within the next step."""
         self._commands[:] = commands
-        self._fmu.fmi2SetReal(self._fmu.component, self._into, 2, pointer(self._commands))
+        self._fmu.fmi2SetReal(self._fmu.component, self._into, 2, self._commands_at)
         if rates is not None:
             slopes, orders = np.array(rates, dtype=float), (ctypes.c_int * 2)(1, 1)
             self._fmu.fmi2SetRealInputDerivatives(
@@ -93,7 +102,7 @@ class Vehicle:
     def read(self) -> np.ndarray:
         """Values of `outputs` now."""
         size = len(self._values)
-        self._fmu.fmi2GetReal(self._fmu.component, self._out, size, pointer(self._values))
+        self._fmu.fmi2GetReal(self._fmu.component, self._out, size, self._values_at)
         return self._values.copy()
 
     def rates(self) -> np.ndarray:
@@ -147,9 +156,10 @@ def fly(
     law: Law,
     commands: np.ndarray,
     outputs: tuple[str, ...] = (),
+    effect: np.ndarray | float = 1.0,
     **parameters: float,
 ) -> Flight:
-    """Fly `commands`, shape (steps, 2), in closed loop.
+    """Fly `commands`, shape (steps, 2), in closed loop; `effect` multiplies delta_e and phi.
 
     What the law calls level flight is that of this vehicle, as if it had been trimmed before.
     """
@@ -159,7 +169,7 @@ def fly(
         level = values[:3] - law.level
         try:
             for wish in commands:
-                vehicle.command(held)
+                vehicle.command(held * effect)
                 vehicle.step(law.period_s)
                 held = pilot.step(values[:3] - level, wish)
                 values = vehicle.read()

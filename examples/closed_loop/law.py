@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -59,8 +60,13 @@ class Autopilot:
     saturated: int = 0
 
     def __post_init__(self) -> None:
-        self.estimate = np.zeros(len(self.law.A))
+        law = self.law
+        self.estimate = np.zeros(len(law.A))
         self.integral, self.command = np.zeros(2), np.zeros(2)
+        # Side by side, so that a step is few products: it runs a million times in an ensemble.
+        self._alone = np.hstack([law.A, law.B])
+        self._with = np.hstack([law.A - law.L @ law.C, law.B, law.L])
+        self._feedback = -np.hstack([law.K, law.Ki])
 
     def step(self, measured: np.ndarray, wanted: np.ndarray) -> np.ndarray:
         """Command for the next communication point.
@@ -68,22 +74,21 @@ class Autopilot:
         `measured`: V, gamma, q now; `wanted`: change of V and value of gamma. A measurement that is
         not finite, or no speed at all, is not believed: the model alone carries the estimate on.
         """
-        law = self.law
+        law, known = self.law, (self.estimate, self.command)
         deviation = measured - law.level
-        predicted = law.A @ self.estimate + law.B @ self.command
-        if np.isfinite(measured).all() and measured[0] > 0.0:
-            predicted += law.L @ (deviation - law.C @ self.estimate)
-            error = deviation[:2] - wanted
+        if measured[0] > 0.0 and isfinite(measured.sum()):
+            predicted = self._with @ np.concatenate((*known, deviation))
+            integral = self.integral + law.period_s * (deviation[:2] - wanted)
         else:
             self.missed += 1
-            error = np.zeros(2)
+            predicted = self._alone @ np.concatenate(known)
+            integral = self.integral
+        away = np.concatenate((predicted, integral))
         # V and gamma are the first two states of every design model.
-        away = predicted.copy()
         away[:2] -= wanted
-        integral = self.integral + law.period_s * error
-        free = -law.K @ away - law.Ki @ integral
-        command = np.clip(free, law.low, law.high)
-        if np.array_equal(command, free):
+        free = self._feedback @ away
+        command = np.minimum(np.maximum(free, law.low), law.high)
+        if (command == free).all():
             # Otherwise the integrators wait: they would wind up against the stop.
             self.integral = integral
         else:

@@ -1,0 +1,190 @@
+"""Monte Carlo in closed loop on Dask: slosh, fuel and coefficients vary, one autopilot flies all.
+
+Results are written as they arrive, one Parquet file for every batch: run the same command again and
+only what is missing is flown.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+LOOP = HERE.parent / "closed_loop"
+sys.path[:0] = [str(HERE), str(LOOP)]
+try:
+    import numpy as np
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+    from dask.distributed import Client, LocalCluster, as_completed
+    from fmpy import extract
+    from scipy.stats import qmc
+
+    import design
+    import pictures
+    from batch import SAMPLE_EVERY, VARIED, Task, fly_all
+    from flight import wanted
+except ModuleNotFoundError as missing:
+    sys.exit(
+        f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
+    )
+
+# What every worker needs to import.
+MODULES = [
+    HERE / "batch.py",
+    HERE.parent / "linear_model.py",
+    *(LOOP / f"{name}.py" for name in ("design", "flight", "law")),
+]
+BATCH = 25
+CONNECT_S = 10
+# How often a batch may take its worker down before it is given up.
+RETRIES = 3
+
+
+def sample(count: int, seed: int) -> list[dict[str, float]]:
+    """Vehicles, a Latin hypercube: every parameter alone is spread evenly."""
+    unit = qmc.LatinHypercube(len(VARIED), rng=seed).random(count)
+    columns = {
+        "fuel_fraction": 0.2 + 0.8 * unit[:, 0],
+        "slosh_damping": 0.005 * 20.0 ** unit[:, 1],  # 0.005 to 0.1, evenly in its logarithm
+        "slosh_frequency": 4.0 + 8.0 * unit[:, 2],
+        "aero": 1.0 + np.floor(3.0 * unit[:, 3]),  # the FMU's three sets of coefficients
+        "elevator_effect": 0.8 + 0.4 * unit[:, 4],
+    }
+    rows = np.column_stack([columns[name] for name in VARIED]).tolist()
+    return [dict(zip(VARIED, row, strict=True)) for row in rows]
+
+
+def connect(scheduler: str | None, workers: int | None) -> Client:
+    """An existing cluster, or one of processes on this machine."""
+    if scheduler is None:
+        return Client(LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None))
+    try:
+        return Client(scheduler, timeout=CONNECT_S)
+    except (OSError, ValueError) as failure:
+        sys.exit(f"error: no scheduler answers at {scheduler} within {CONNECT_S} s: {failure}")
+
+
+def part(folder: Path, number: int) -> Path:
+    """File of a batch."""
+    return folder / f"part-{number:06}.parquet"
+
+
+def fly(client: Client, tasks: dict[int, Task], fmu: bytes, folder: Path) -> Iterator[str]:
+    """Fly the batches and write their parts; yields an error, or nothing, for each."""
+    modules = folder.parent / "modules.zip"
+    with zipfile.ZipFile(modules, "w") as archive:
+        for module in MODULES:
+            archive.write(module, module.name)
+    client.upload_file(str(modules))
+    shared = client.scatter(fmu, broadcast=True, hash=True)
+    futures = {
+        client.submit(
+            lambda fmu, task: fly_all(task._replace(fmu=fmu)), shared, task, retries=RETRIES
+        ): number
+        for number, task in tasks.items()
+    }
+    for future in as_completed(futures):
+        if future.status != "finished":
+            yield f"batch {futures[future]}: {future.exception()}"
+            continue
+        target = part(folder, futures[future])
+        pq.write_table(pa.Table.from_pylist(future.result()), target.with_suffix(".new"))
+        target.with_suffix(".new").rename(target)
+        future.release()
+        yield ""
+
+
+def bar(done: int, total: int, since: float) -> None:
+    """Progress, on one line."""
+    filled = 40 * done // total
+    seconds = time.monotonic() - since
+    left = seconds / done * (total - done) if done else 0.0
+    line = f"[{'#' * filled}{'.' * (40 - filled)}] {done}/{total} batches, {left:5.0f} s left"
+    print(f"\r{line}", end="", file=sys.stderr, flush=True)
+
+
+def same_as_before(folder: Path, what: dict[str, object]) -> None:
+    """Refuse to mix two ensembles."""
+    said, text = folder / "ensemble.json", json.dumps(what, indent=1)
+    if said.exists() and said.read_text(encoding="utf-8") != text:
+        sys.exit(f"error: {folder} holds another ensemble ({said}): give another --output")
+    said.write_text(text, encoding="utf-8")
+
+
+def summary(table: pa.Table) -> str:
+    """The ensemble in two lines."""
+    phase = table["phase_deg"].to_numpy().astype(float)
+    ended = sum(bool(reason) for reason in table["ended"].to_pylist())
+    stable = phase[~np.isnan(phase)]
+    return (
+        f"{table.num_rows} vehicles: {np.isnan(phase).sum()} with an unstable loop, "
+        f"{ended} flights ended early\n"
+        f"phase margin of the others: least {stable.min(initial=np.inf):.1f}, "
+        f"median {np.median(stable):.1f} deg; below 30 deg: {(stable < 30).sum()}"
+    )
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
+    parser.add_argument("--flights", type=int, default=1000)
+    parser.add_argument("--stop", type=float, default=20.0, help="s, of each flight")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--scheduler", help="tcp://HOST:PORT of a Dask cluster; else this machine")
+    parser.add_argument("--workers", type=int, help="on this machine; one per core, if not given")
+    parser.add_argument("--output", type=Path, default=Path("target/ensemble"))
+    options = parser.parse_args()
+    if not options.fmu.is_file():
+        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
+    folder = options.output / "flights"
+    folder.mkdir(parents=True, exist_ok=True)
+    same_as_before(
+        options.output,
+        {"flights": options.flights, "stop_s": options.stop, "seed": options.seed},
+    )
+
+    law = design.design(design.model(extract(str(options.fmu))))
+    manoeuvre = np.genfromtxt(LOOP / "manoeuvre.csv", delimiter=",", names=True)
+    commands = wanted(manoeuvre, options.stop, design.PERIOD_S)
+    vehicles = sample(options.flights, options.seed)
+    batches = [vehicles[i : i + BATCH] for i in range(0, len(vehicles), BATCH)]
+    tasks = {
+        number: Task(b"", law, commands, batch)
+        for number, batch in enumerate(batches)
+        if not part(folder, number).exists()
+    }
+    kept = len(batches) - len(tasks)
+    print(f"{len(vehicles)} flights of {options.stop:g} s; {kept} of {len(batches)} batches kept")
+
+    failures = []
+    if tasks:
+        since = time.monotonic()
+        with connect(options.scheduler, options.workers) as client:
+            bar(0, len(tasks), since)
+            for done, failure in enumerate(
+                fly(client, tasks, options.fmu.read_bytes(), folder), start=1
+            ):
+                bar(done, len(tasks), since)
+                failures += [failure] if failure else []
+        seconds = time.monotonic() - since
+        flown = sum(len(task.vehicles) for task in tasks.values())
+        print(f"\n{flown} flights in {seconds:.0f} s: {flown / seconds:.1f} per second")
+    table = pq.read_table(folder)
+    print(summary(table))
+    every_s = SAMPLE_EVERY * design.PERIOD_S
+    pictures.envelope(table, commands[::SAMPLE_EVERY], every_s, options.output / "envelope.png")
+    pictures.margins(table, options.output / "margins.png")
+    print(f"{folder}, {options.output / 'envelope.png'}, {options.output / 'margins.png'}")
+    if failures:
+        sys.exit("error: run again to fly what is missing:\n" + "\n".join(failures))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,138 @@
+"""The example of an ensemble: nothing is lost, whatever dies, and every message says what to do."""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from dask.distributed import Client, LocalCluster
+
+import design
+import ensemble
+from batch import PARAMETERS, Task, fly_all
+from flight import wanted
+from harness import Package
+
+SCRIPT = Path(ensemble.__file__)
+FLIGHTS, STOP_S = 100, 4.0
+OPTIONS = ("--flights", str(FLIGHTS), "--stop", str(STOP_S))
+# A worker comes back, and flies what is left, within this time.
+PATIENCE_S = 240.0
+
+
+def command(package: Package, output: Path, *options: str) -> list[str]:
+    """The example's command line."""
+    files = ["--fmu", str(package.path), "--output", str(output)]
+    return [sys.executable, str(SCRIPT), *files, *OPTIONS, *options]
+
+
+def run(package: Package, output: Path, *options: str) -> subprocess.CompletedProcess[str]:
+    """Run the example to its end."""
+    line = command(package, output, *options)
+    return subprocess.run(line, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
+
+
+def rows(output: Path) -> list[dict[str, object]]:
+    """Flights in the order of the sample."""
+    return pq.read_table(output / "flights").to_pylist()
+
+
+@pytest.fixture(scope="module")
+def cluster() -> Iterator[LocalCluster]:
+    """Two workers in processes of their own, whom a nanny replaces."""
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        yield cluster
+
+
+@pytest.fixture(scope="module")
+def flown(
+    package: Package, cluster: LocalCluster, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """An ensemble during which a worker was killed as soon as the first results were there."""
+    output = tmp_path_factory.mktemp("ensemble")
+    line = command(package, output, "--scheduler", cluster.scheduler_address)
+    with subprocess.Popen(
+        line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as flying:
+        end = time.monotonic() + PATIENCE_S
+        while not list(output.glob("flights/part-*.parquet")) and flying.poll() is None:
+            assert time.monotonic() < end, "no result"
+            time.sleep(0.05)
+        with Client(cluster) as client:
+            workers = client.run(os.getpid)
+        os.kill(next(iter(workers.values())), signal.SIGKILL)
+        kept = len(list(output.glob("flights/part-*.parquet")))
+        assert kept < FLIGHTS // ensemble.BATCH, "killed too late to prove anything"
+        said, wrong = flying.communicate(timeout=PATIENCE_S)
+    assert flying.returncode == 0, said + wrong
+    return output
+
+
+def test_a_worker_that_dies_loses_no_result(flown: Path) -> None:
+    vehicles = ensemble.sample(FLIGHTS, 1)
+    found = rows(flown)
+    assert len(found) == FLIGHTS
+    for row, vehicle in zip(found, vehicles, strict=True):
+        assert {name: row[name] for name in vehicle} == vehicle
+    for picture in ("envelope.png", "margins.png"):
+        assert (flown / picture).stat().st_size > 10_000
+
+
+def test_a_flight_is_the_same_on_any_worker(package: Package, flown: Path) -> None:
+    manoeuvre = np.genfromtxt(ensemble.LOOP / "manoeuvre.csv", delimiter=",", names=True)
+    law = design.design(design.model(str(package.folder)))
+    commands = wanted(manoeuvre, STOP_S, design.PERIOD_S)
+    picked = ensemble.sample(FLIGHTS, 1)[::50]
+    here = fly_all(Task(package.path.read_bytes(), law, commands, picked))
+    # Worker and this process may order sums differently; an unstable loop makes more of it.
+    for mine, theirs in zip(here, rows(flown)[::50], strict=True):
+        assert np.allclose(mine["gamma_rad"], theirs["gamma_rad"], rtol=0.0, atol=1e-9)
+        assert mine["growth_per_s"] == pytest.approx(theirs["growth_per_s"], abs=1e-6)
+
+
+def test_running_again_flies_only_what_is_missing(
+    package: Package, cluster: LocalCluster, flown: Path
+) -> None:
+    before = rows(flown)
+    ensemble.part(flown / "flights", 2).unlink()
+    again = run(package, flown, "--scheduler", cluster.scheduler_address)
+    assert again.returncode == 0, again.stderr
+    assert "3 of 4 batches kept" in again.stdout
+    assert "25 flights in" in again.stdout
+    assert len(rows(flown)) == len(before)
+
+
+def test_two_ensembles_are_not_mixed(package: Package, flown: Path) -> None:
+    other = run(package, flown, "--seed", "2")
+    assert other.returncode == 1 and "holds another ensemble" in other.stderr
+
+
+def test_an_unreachable_scheduler_is_named(
+    package: Package, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        address = f"tcp://127.0.0.1:{free.getsockname()[1]}"
+    monkeypatch.setattr(ensemble, "CONNECT_S", 1)
+    with pytest.raises(SystemExit) as refused:
+        ensemble.connect(address, None)
+    assert f"no scheduler answers at {address}" in str(refused.value)
+
+
+def test_a_vehicle_that_cannot_be_trimmed_is_a_row_with_the_reason(package: Package) -> None:
+    (vehicle,) = ensemble.sample(1, 1)
+    law = design.design(design.model(str(package.folder)))
+    bad = vehicle | {"fuel_fraction": 2.0}
+    assert "fuel_fraction" in PARAMETERS
+    row, good = fly_all(Task(package.path.read_bytes(), law, np.zeros((100, 2)), [bad, vehicle]))
+    assert "fuel_fraction" in row["ended"] and row["flown_s"] == 0.0
+    assert good["ended"] == "" and good["flown_s"] == pytest.approx(1.0)
