@@ -14,13 +14,16 @@ use stream::Stream;
 
 /// V, h, gamma, alpha, q.
 pub const RIGID: usize = 5;
-/// Rigid states, then (eta, eta-dot) of the flexible modes, then of the slosh modes.
-pub const STATES: usize = RIGID + 2 * MODES;
+/// Number of the fuel among the states; before it, behind the rigid states, (eta, eta-dot) of the
+/// flexible modes, then of the slosh modes.
+pub const FUEL: usize = RIGID + 2 * MODES;
+/// All states.
+pub const STATES: usize = FUEL + 1;
 /// delta_e, phi.
 pub const CONTROLS: usize = 2;
-/// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s): scales the tolerance.
+/// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s, kg/m): scales the tolerance.
 pub const NOMINAL: [f64; STATES] =
-    [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05];
+    [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05, 1e3];
 
 /// All states; those of modes that a configuration does not have stay zero.
 pub type State<S = f64> = [S; STATES];
@@ -42,6 +45,8 @@ pub struct Vehicle {
     pub inertia: f64,
     /// Station of the mass centre, m from the nose.
     pub mass_centre: f64,
+    /// Fuel at the start, kg/m.
+    pub fuel: f64,
     /// Number of modes in use: 0, 3 or 5.
     pub modes: usize,
     /// Frequencies, rad/s.
@@ -117,7 +122,7 @@ impl<S: Copy> Outputs<S> {
 }
 
 impl Vehicle {
-    /// Number of states in use: 5, 11 or 15.
+    /// Number of states in motion at one fuel level: 5, 11 or 15.
     pub fn states(&self) -> usize {
         RIGID + 2 * self.modes
     }

@@ -11,7 +11,7 @@ use crate::params::{
     AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
     VehicleData, XU2015_TOML,
 };
-use crate::slosh::{SloshSettings, SloshingTank};
+use crate::slosh::{SloshSettings, SloshingTank, fuel_kg_per_m};
 use crate::trim::Condition;
 
 /// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
@@ -193,6 +193,7 @@ impl Vehicle {
             mass: properties.mass,
             inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
             mass_centre: properties.centre_m,
+            fuel: fuel_kg_per_m(&data.vehicle, build.fuel_fraction),
             modes: modes.count,
             omega: modes.omega_rad_per_s,
             damping: modes.damping(oscillators, &set.inertia.structural_damping.value),

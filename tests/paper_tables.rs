@@ -248,7 +248,7 @@ fn paper_published_trim_closes_lift_but_not_moment() {
     // thrust and drag differ by 7 %, and a moment remains, so the digits are not of these fits.
     let vehicle = vehicle_with(Parker2007, Configuration::Rigid);
     let radians = std::f64::consts::PI / 180.0;
-    let mut x = [0.0; 15];
+    let mut x = [0.0; ahv::dynamics::STATES];
     x[0] = 7702.08 * 0.3048;
     x[1] = 85_000.0 * 0.3048;
     x[3] = 1.5153 * radians;

@@ -25,6 +25,8 @@ const ANGULAR_ACCELERATION: Unit = unit("rad/s2", [0, 0, -2, 1]);
 const FREQUENCY: Unit = unit("rad/s", [0, 0, -1, 1]);
 const FORCE_PER_WIDTH: Unit = unit("N/m", [1, 0, -2, 0]);
 const MOMENT_PER_WIDTH: Unit = unit("N", [1, 1, -2, 0]);
+const MASS_PER_WIDTH: Unit = unit("kg/m", [1, -1, 0, 0]);
+const MASS_FLOW_PER_WIDTH: Unit = unit("kg/(m.s)", [1, -1, -1, 0]);
 const PRESSURE: Unit = unit("Pa", [1, -1, -2, 0]);
 
 const NONE: Dependencies = Dependencies { dependent: 0, fixed: 0, constant: 0 };
@@ -197,7 +199,7 @@ const INPUT_MODE: Kind = Kind::Enumeration(
 
 /// All variables.
 #[rustfmt::skip]
-pub static TABLE: [Variable; 68] = [
+pub static TABLE: [Variable; 70] = [
     input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
     input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
@@ -266,6 +268,8 @@ pub static TABLE: [Variable; 68] = [
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
     Variable { range: Some([-200.0, 200.0]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
+    output_state(15, "fuel_mass", MASS_PER_WIDTH, "Fuel on board, without what cannot be drained, per metre of width", |f| f.state()[15]),
+    derivative(15, "der(fuel_mass)", MASS_FLOW_PER_WIDTH, NONE, |f| rate(f, 15)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {
