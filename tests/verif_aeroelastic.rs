@@ -145,7 +145,8 @@ fn verif_the_air_damps_every_mode() {
         let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
         let n = vehicle.modes;
         let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
-            let entry = |i: usize, k: usize| vehicle.elastic.force.elastic[k][1][i] * mass[i];
+            let entry =
+                |i: usize, k: usize| vehicle.airframe.elastic.force.elastic[k][1][i] * mass[i];
             0.5 * (entry(i, k) + entry(k, i))
         });
         let eigenvalues = damping.symmetric_eigenvalues();
