@@ -2,8 +2,7 @@
 #![allow(missing_docs)]
 
 use ahv::params::{
-    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
-    VehicleData, XU2015_TOML,
+    AeroData, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData, XU2015,
 };
 
 /// Unit that a key's suffix promises; keys without one are plain numbers.
@@ -46,7 +45,7 @@ fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str,
 
 #[test]
 fn verif_every_number_has_unit_source_and_status() {
-    for text in [VEHICLE_TOML, EARTH_TOML, XU2015_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML] {
+    for text in [VEHICLE.text, EARTH.text, XU2015.text, PARKER2007.text, SHOCK_EXPANSION.text] {
         let mut count = 0;
         for_each_number(&text.parse().unwrap(), "", &mut |path, number| {
             count += 1;
@@ -66,8 +65,8 @@ fn verif_every_number_has_unit_source_and_status() {
 
 /// The message that a vehicle file gets after one replacement.
 fn refused(from: &str, to: &str) -> String {
-    assert!(VEHICLE_TOML.contains(from), "{from} is not in the file");
-    let text = VEHICLE_TOML.replacen(from, to, 1);
+    assert!(VEHICLE.text.contains(from), "{from} is not in the file");
+    let text = VEHICLE.text.replacen(from, to, 1);
     VehicleData::parse("mine.toml", &text).expect_err(to).to_string()
 }
 
@@ -131,16 +130,16 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
 #[test]
 fn verif_a_syntax_error_names_the_line() {
     let message = refused("[mass]", "[mass");
-    let line = VEHICLE_TOML.lines().position(|line| line == "[mass]").unwrap() + 1;
+    let line = VEHICLE.text.lines().position(|line| line == "[mass]").unwrap() + 1;
     assert!(message.contains(&format!("line {line}")), "{message}");
 }
 
 #[test]
 fn verif_wrong_air_and_coefficients_are_refused() {
-    let text = EARTH_TOML.replacen("11000.0", "31000.0", 1);
+    let text = EARTH.text.replacen("11000.0", "31000.0", 1);
     let message = EarthData::parse("earth.toml", &text).unwrap_err().to_string();
     assert!(message.contains("air.layer_base_m"), "{message}");
-    let text = PARKER2007_TOML.replacen("mach = { value = [6.0", "mach = { value = [16.0", 1);
+    let text = PARKER2007.text.replacen("mach = { value = [6.0", "mach = { value = [16.0", 1);
     let message = AeroData::parse("aero.toml", &text).unwrap_err().to_string();
     assert!(message.contains("envelope.mach: [16.0, 11.0] must increase"), "{message}");
 }
