@@ -2,6 +2,7 @@
 
 mod files;
 mod shape;
+mod units;
 mod validate;
 
 pub use files::*;

@@ -1,6 +1,6 @@
 //! Reading and checking of the data files: a wrong number is refused with file, key and limit.
 
-use super::{AeroData, EarthData, Embedded, VehicleData};
+use super::{AeroData, EarthData, Embedded, VehicleData, units};
 use crate::atmosphere::MAX_LAYERS;
 use crate::error::Error;
 use serde::de::DeserializeOwned;
@@ -19,14 +19,18 @@ pub trait DataFile: DeserializeOwned {
     /// # Errors
     /// [`Error::Data`] with the key or the line, the value and the limit.
     fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let data: Self = toml::from_str(text).map_err(|error| {
+        let unreadable = |error: toml::de::Error| {
             let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
             Error::Data {
                 file: file.to_string(),
                 key: format!("line {}", before.matches('\n').count() + 1),
                 problem: error.message().to_string(),
             }
-        })?;
+        };
+        let data: Self = toml::from_str(text).map_err(unreadable)?;
+        if let Some((key, problem)) = units::wrong(&text.parse().map_err(unreadable)?) {
+            return Err(Error::Data { file: file.to_string(), key, problem });
+        }
         data.check(&Check { file })?;
         Ok(data)
     }
