@@ -37,7 +37,7 @@ impl Parameters {
         Self {
             build: Build {
                 configuration: Configuration::SloshBeam,
-                aero: AeroSet::Xu2015,
+                aero: if data.own.is_some() { AeroSet::Own } else { AeroSet::Xu2015 },
                 fuel_fraction: default.fuel_fraction.value,
                 fuel_burn: false,
                 slosh_damping: default.slosh_damping.value,
