@@ -181,7 +181,13 @@ fn verif_the_full_build_scales_inertia_with_fuel() {
     let build = ahv::vehicle::Build { fuel_fraction: 0.0, ..build(Configuration::SloshBeam) };
     let empty = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
     let dry = 1.0 - data().vehicle.mass.propellant_fraction.value;
-    assert!(empty.mass < 0.36 * full.mass && empty.mass > dry * full.mass);
-    assert!(empty.inertia < 0.6 * full.inertia && empty.inertia > 0.3 * full.inertia);
-    assert_eq!(full.inertia, data().xu2015.inertia.i_yy_kg_m2_per_m.value);
+    assert!(
+        empty.airframe.mass < 0.36 * full.airframe.mass
+            && empty.airframe.mass > dry * full.airframe.mass
+    );
+    assert!(
+        empty.airframe.inertia < 0.6 * full.airframe.inertia
+            && empty.airframe.inertia > 0.3 * full.airframe.inertia
+    );
+    assert_eq!(full.airframe.inertia, data().xu2015.inertia.i_yy_kg_m2_per_m.value);
 }
