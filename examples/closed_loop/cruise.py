@@ -28,7 +28,10 @@ except ModuleNotFoundError as missing:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-OUTPUTS = ("h", "mach", "alpha", "fuel_mass", "delta_e_effective", "phi_effective")
+OUTPUTS = (
+    *("h", "mach", "alpha", "delta_e_effective", "phi_effective"),
+    *("fuel_mass", "der(fuel_mass)"),
+)
 COLUMNS = ("time", "V", "gamma", "q", *OUTPUTS, "delta_e_change", "phi_change")
 # Between the rows of the CSV; how many vehicles stand beside the flight.
 ROW_S, TRIMS = 1.0, 7
