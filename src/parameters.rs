@@ -37,7 +37,7 @@ impl Parameters {
         Self {
             build: Build {
                 configuration: Configuration::SloshBeam,
-                aero: AeroSet::Xu2015,
+                aero: if data.own.is_some() { AeroSet::Own } else { AeroSet::Xu2015 },
                 fuel_fraction: default.fuel_fraction.value,
                 slosh_damping: default.slosh_damping.value,
                 slosh_frequency: default.slosh_frequency_rad_per_s.value,

@@ -8,8 +8,8 @@ use crate::dynamics::Vehicle;
 use crate::error::Error;
 use crate::modes::Modes;
 use crate::params::{
-    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML,
-    VehicleData, XU2015_TOML,
+    AeroData, DataFile, EARTH, EarthData, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData,
+    XU2015,
 };
 use crate::slosh::{SloshSettings, SloshingTank};
 use crate::trim::Condition;
@@ -34,6 +34,8 @@ pub enum AeroSet {
     Parker2007 = 2,
     /// Regression of the first-principles model.
     ShockExpansion = 3,
+    /// That of the user, in a library that was built with one.
+    Own = 4,
 }
 
 /// What shapes a vehicle.
@@ -66,6 +68,8 @@ pub struct Data {
     pub parker2007: AeroData,
     /// Coefficient set fitted to the first-principles model.
     pub shock_expansion: AeroData,
+    /// Coefficient set of the user.
+    pub own: Option<AeroData>,
 }
 
 impl Data {
@@ -75,11 +79,12 @@ impl Data {
     /// [`Error::Data`] with file, key and limit.
     pub fn embedded() -> Result<Self, Error> {
         Ok(Self {
-            vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
-            earth: EarthData::parse("earth.toml", EARTH_TOML)?,
-            xu2015: AeroData::parse("aero/xu2015.toml", XU2015_TOML)?,
-            parker2007: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
-            shock_expansion: AeroData::parse("aero/shock_expansion.toml", SHOCK_EXPANSION_TOML)?,
+            vehicle: VehicleData::embedded(&VEHICLE)?,
+            earth: EarthData::embedded(&EARTH)?,
+            xu2015: AeroData::embedded(&XU2015)?,
+            parker2007: AeroData::embedded(&PARKER2007)?,
+            shock_expansion: AeroData::embedded(&SHOCK_EXPANSION)?,
+            own: OWN.as_ref().map(AeroData::embedded).transpose()?,
         })
     }
 
@@ -89,6 +94,7 @@ impl Data {
             AeroSet::Xu2015 => &self.xu2015,
             AeroSet::Parker2007 => &self.parker2007,
             AeroSet::ShockExpansion => &self.shock_expansion,
+            AeroSet::Own => self.own.as_ref().unwrap_or(&self.xu2015),
         }
     }
 }

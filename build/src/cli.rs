@@ -1,5 +1,6 @@
 //! What can be typed after `cargo ahv`.
 
+use crate::own::Own;
 use crate::reproduce::Part;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -66,6 +67,8 @@ pub struct Fit {
 Examples:
   cargo ahv package
       build for Linux and Windows, as far as this machine can, and write target/ahv.fmu
+  cargo ahv package --vehicle mine.toml --coefficients my_air.toml
+      the FMU of your own vehicle, target/own/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
       package libraries that were built elsewhere, for several platforms")]
 pub struct Package {
@@ -75,10 +78,15 @@ pub struct Package {
     /// Fail if a platform cannot be built for
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
+    /// Build for this machine alone, with its C library: sooner
+    #[arg(long, conflicts_with_all = ["library", "all_targets"])]
+    pub host_only: bool,
     /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
     /// darwin64
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
+    #[command(flatten)]
+    pub own: Own,
 }
 
 /// Fly a manoeuvre with the FMU; write the time history as CSV and as a figure
@@ -116,8 +124,13 @@ pub struct Fly {
     #[command(flatten)]
     pub set: Set,
     /// Fly this FMU instead of building one
-    #[arg(long, value_name = "FILE.fmu")]
+    #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
+    /// Build for this machine alone, with its C library: sooner
+    #[arg(long, conflicts_with = "fmu")]
+    pub host_only: bool,
+    #[command(flatten)]
+    pub own: Own,
 }
 
 /// Parameters given on the command line.
@@ -143,6 +156,8 @@ pub struct Analyse {
     /// Print JSON, in SI units and radians
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub own: Own,
 }
 
 /// Integration methods compared: right-hand sides against error, on the vehicle itself

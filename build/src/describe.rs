@@ -7,6 +7,7 @@ use crate::xml::Xml;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
 use ahv::fmi::exchange::EVENT_INDICATORS;
 use ahv::fmi::log::CATEGORIES;
+use ahv::params::OWN_FILES;
 use ahv::variables::{self, Kind, Role, TABLE, Unit, Variable};
 use anyhow::{Result, bail};
 use std::io;
@@ -50,12 +51,7 @@ pub fn xml() -> Result<String> {
         ("fmiVersion", "2.0".to_string()),
         ("modelName", "ahv".to_string()),
         ("guid", variables::guid()),
-        (
-            "description",
-            "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing \
-             propellant"
-                .to_string(),
-        ),
+        ("description", description()),
         ("author", "The ahv authors".to_string()),
         ("version", env!("CARGO_PKG_VERSION").to_string()),
         ("license", env!("CARGO_PKG_LICENSE").to_string()),
@@ -92,6 +88,14 @@ pub fn xml() -> Result<String> {
         xml.parent("ModelStructure", &[], model_structure)
     })?;
     Ok(xml.finish()?)
+}
+
+fn description() -> String {
+    let whose = if OWN_FILES.is_empty() { String::new() } else { format!("; data: {OWN_FILES}") };
+    format!(
+        "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing \
+         propellant{whose}"
+    )
 }
 
 /// The schema wants model exchange first.

@@ -10,7 +10,7 @@ use ahv::dynamics::Vehicle;
 use ahv::modes::{FLEXIBLE, Modes};
 use ahv::parameters::Parameters;
 use ahv::params::{
-    AeroData, EARTH_TOML, EarthData, PARKER2007_TOML, Quantity, Status, VEHICLE_TOML, VehicleData,
+    AeroData, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE, VehicleData,
 };
 use ahv::shock_expansion::elastic::{self, COMPARED};
 use ahv::shock_expansion::stream::Stream;
@@ -45,9 +45,9 @@ struct Fitted {
 pub fn run(options: &Fit) -> Result<()> {
     let file = root().join("src/data/aero/shock_expansion.toml");
     let inputs = Inputs {
-        vehicle: VehicleData::parse("vehicle.toml", VEHICLE_TOML)?,
-        earth: EarthData::parse("earth.toml", EARTH_TOML)?,
-        published: AeroData::parse("aero/parker2007.toml", PARKER2007_TOML)?,
+        vehicle: VehicleData::embedded(&VEHICLE)?,
+        earth: EarthData::embedded(&EARTH)?,
+        published: AeroData::embedded(&PARKER2007)?,
     };
     let result = regress(&inputs)?;
     print!("{}", table(&result.rows));

@@ -5,6 +5,7 @@ use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::{Instance, Step, status_name};
 use crate::model_description::{Causality, ModelDescription, Variable};
+use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
@@ -30,7 +31,8 @@ struct Flown {
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None => package::fresh()?,
+        None if options.host_only => package::fresh(Targets::Host)?,
+        None => package::fresh(Targets::Possible)?,
     };
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;

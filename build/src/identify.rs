@@ -11,7 +11,7 @@ mod tradeoff;
 
 use crate::cli::{Identified, Identify};
 use crate::workspace::{read_text, root, shown, write};
-use ahv::params::VehicleData;
+use ahv::params::{DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
 use report::Report;

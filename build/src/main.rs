@@ -16,6 +16,7 @@ mod master;
 mod methods;
 mod model_description;
 mod modes;
+mod own;
 mod package;
 mod panels;
 mod plot;
@@ -46,7 +47,13 @@ fn main() -> ExitCode {
         }
         report(panic);
     }));
-    let result = match Cli::parse().command {
+    let command = Cli::parse().command;
+    match own::run(&command) {
+        Ok(None) => {}
+        Ok(Some(code)) => return code,
+        Err(error) => return failed(&error),
+    }
+    let result = match command {
         Command::Describe(options) => describe::run(&options),
         Command::Package(options) => package::run(&options),
         Command::Fit(options) => fit::run(&options),
@@ -62,10 +69,12 @@ fn main() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            // `{:#}` puts the causes on the same line: what failed, then why.
-            eprintln!("error: {error:#}");
-            ExitCode::FAILURE
-        }
+        Err(error) => failed(&error),
     }
+}
+
+fn failed(error: &anyhow::Error) -> ExitCode {
+    // `{:#}` puts the causes on the same line: what failed, then why.
+    eprintln!("error: {error:#}");
+    ExitCode::FAILURE
 }

@@ -21,6 +21,17 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
+/// For which platforms an FMU is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Targets {
+    /// This machine's, with this machine's C library.
+    Host,
+    /// As many as this machine can build for.
+    Possible,
+    /// A missing one is an error.
+    All,
+}
+
 /// Libraries for an FMU.
 #[derive(Default)]
 struct Libraries {
@@ -32,17 +43,24 @@ struct Libraries {
 pub fn run(options: &Package) -> Result<()> {
     let output = options.output.clone().unwrap_or_else(default_output);
     if options.library.is_empty() {
-        return build(&output, options.all_targets);
+        let targets = match (options.host_only, options.all_targets) {
+            (true, _) => Targets::Host,
+            (_, true) => Targets::All,
+            _ => Targets::Possible,
+        };
+        return build(&output, targets);
     }
     let given = options.library.iter().map(|text| platform::given(text));
     write_fmu(contents(&given.collect::<Result<Vec<_>>>()?)?, &output)
 }
 
-/// Builds and packages for every platform that this machine can build for. If all are
-/// wanted, a missing one is an error.
-pub fn build(output: &Path, all_targets: bool) -> Result<()> {
-    let libraries = Libraries::build()?;
-    if all_targets && !libraries.missing.is_empty() {
+/// Builds and packages.
+pub fn build(output: &Path, targets: Targets) -> Result<()> {
+    let libraries = match targets {
+        Targets::Host => Libraries::host()?,
+        _ => Libraries::build()?,
+    };
+    if targets == Targets::All && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
     let mut files = contents(&libraries.found)?;
@@ -63,9 +81,9 @@ pub fn build(output: &Path, all_targets: bool) -> Result<()> {
 }
 
 /// The FMU at its usual place, built anew.
-pub fn fresh() -> Result<PathBuf> {
+pub fn fresh(targets: Targets) -> Result<PathBuf> {
     let output = default_output();
-    build(&output, false)?;
+    build(&output, targets)?;
     Ok(output)
 }
 
@@ -80,11 +98,16 @@ pub fn default_output() -> PathBuf {
 }
 
 impl Libraries {
+    /// Compiles for this machine as Cargo does.
+    fn host() -> Result<Self> {
+        Ok(Self { found: vec![(HOST, library::for_host()?)], missing: Vec::new() })
+    }
+
     /// Compiles for all platforms that this machine can compile for.
     fn build() -> Result<Self> {
         let mut libraries = Self::default();
         if HOST != LINUX {
-            libraries.found.push((HOST, library::for_host()?));
+            libraries = Self::host()?;
             libraries.missing.push(format!(
                 "only {} is in it: the FMU for Linux and Windows is built on Linux",
                 HOST.name

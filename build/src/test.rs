@@ -1,6 +1,7 @@
 //! Checks everything, in the order in which mistakes are cheapest to find.
 
 use crate::cli::{Describe, Test};
+use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
 use crate::{abuse, describe, package};
@@ -23,7 +24,10 @@ const STEPS: [Step; 13] = [
         check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
     }),
     ("description", |_| describe::run(&Describe { check: true, file: None })),
-    ("package", |options| package::build(&package::default_output(), options.all_targets)),
+    ("package", |options| {
+        let targets = if options.all_targets { Targets::All } else { Targets::Possible };
+        package::build(&package::default_output(), targets)
+    }),
     ("C ABI fuzz", |_| abuse::fuzz()),
     ("sanitizer", |_| abuse::sanitizer()),
     ("valgrind", |_| abuse::valgrind()),

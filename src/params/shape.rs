@@ -1,10 +1,10 @@
 //! Outer shape and engine of the first-principles model.
 
-use super::Quantity;
-use serde::Deserialize;
+use super::files::Quantity;
+use serde::{Deserialize, Serialize};
 
 /// Outer shape; heights are above the nose, angles against the axis.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Outline {
     /// Fore-body, lower side, below the axis, rad.
@@ -22,7 +22,7 @@ pub struct Outline {
 }
 
 /// Duct, burner and fuel.
-#[derive(Debug, Clone, Deserialize)]
+#[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct EngineData {
     /// Height of the duct at inlet and exit, m.

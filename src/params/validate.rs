@@ -1,9 +1,9 @@
 //! Reading and checking of the data files: a wrong number is refused with file, key and limit.
 
-use super::{AeroData, EarthData, VehicleData};
+use super::{AeroData, EarthData, Embedded, VehicleData, units};
 use crate::atmosphere::MAX_LAYERS;
 use crate::error::Error;
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 /// The shares of the tanks are printed with four digits and must add up to one.
 const SHARES_ADD_UP: f64 = 1e-9;
@@ -12,19 +12,53 @@ const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
 /// A surface steeper than 45 deg is no slender body.
 const STEEPEST: [f64; 2] = [0.0, core::f64::consts::FRAC_PI_4];
 
-fn parse<T: for<'a> Deserialize<'a>>(file: &str, text: &str) -> Result<T, Error> {
-    toml::from_str(text).map_err(|error| {
-        let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
-        Error::Data {
-            file: file.to_string(),
-            key: format!("line {}", before.matches('\n').count() + 1),
-            problem: error.message().to_string(),
+/// A data file that can be read and checked.
+pub trait DataFile: DeserializeOwned {
+    /// Reads and checks a text in TOML; `file` is its name for messages.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key or the line, the value and the limit.
+    fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let unreadable = |error: toml::de::Error| {
+            let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
+            Error::Data {
+                file: file.to_string(),
+                key: format!("line {}", before.matches('\n').count() + 1),
+                problem: error.message().to_string(),
+            }
+        };
+        let data: Self = toml::from_str(text).map_err(unreadable)?;
+        if let Some((key, problem)) = units::wrong(&text.parse().map_err(unreadable)?) {
+            return Err(Error::Data { file: file.to_string(), key, problem });
         }
-    })
+        data.check(&Check { file })?;
+        Ok(data)
+    }
+
+    /// Reads and checks a file that the library carries.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    fn embedded(file: &Embedded) -> Result<Self, Error> {
+        let data: Self = postcard::from_bytes(file.packed).map_err(|error| Error::Data {
+            file: file.name.to_string(),
+            key: "packed".to_string(),
+            problem: error.to_string(),
+        })?;
+        data.check(&Check { file: file.name })?;
+        Ok(data)
+    }
+
+    /// Whether the numbers are those of a vehicle.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    fn check(&self, check: &Check) -> Result<(), Error>;
 }
 
 /// The checks of one file; the first wrong number is reported.
-struct Check<'a> {
+#[derive(Debug)]
+pub struct Check<'a> {
     file: &'a str,
 }
 
@@ -57,29 +91,25 @@ impl Check<'_> {
     }
 }
 
-impl VehicleData {
-    /// Reads and checks a vehicle file; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// [`Error::Data`] with the key, the value and the limit.
-    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let data: Self = parse(file, text)?;
-        let check = Check { file };
-        let length = data.geometry.length_m.value;
+impl DataFile for VehicleData {
+    fn check(&self, check: &Check) -> Result<(), Error> {
+        let length = self.geometry.length_m.value;
         check.positive("geometry.length_m", length)?;
-        check.inside("geometry.fore_body_m", data.geometry.fore_body_m.value, [0.0, length])?;
-        let tail = length - data.geometry.fore_body_m.value;
-        check.inside("geometry.nacelle_m", data.geometry.nacelle_m.value, [0.0, tail])?;
-        data.check_mass(&check, length)?;
-        data.check_beam(&check, length)?;
-        data.check_tanks(&check, length)?;
-        check.positive("actuation.delta_e_limit_rad", data.actuation.delta_e_limit_rad.value)?;
-        check.positive("actuation.phi_limit", data.actuation.phi_limit.value)?;
-        data.check_outline(&check, length)?;
-        data.check_engine(&check)?;
-        Ok(data)
+        check.inside("geometry.fore_body_m", self.geometry.fore_body_m.value, [0.0, length])?;
+        let tail = length - self.geometry.fore_body_m.value;
+        check.inside("geometry.nacelle_m", self.geometry.nacelle_m.value, [0.0, tail])?;
+        self.check_mass(check, length)?;
+        self.check_beam(check, length)?;
+        self.check_tanks(check, length)?;
+        check.positive("actuation.delta_e_limit_rad", self.actuation.delta_e_limit_rad.value)?;
+        check.positive("actuation.phi_limit", self.actuation.phi_limit.value)?;
+        self.check_outline(check, length)?;
+        self.check_engine(check)?;
+        Ok(())
     }
+}
 
+impl VehicleData {
     fn check_outline(&self, check: &Check, length: f64) -> Result<(), Error> {
         let outline = &self.outline;
         check.inside("outline.lower_angle_rad", outline.lower_angle_rad.value, STEEPEST)?;
@@ -150,57 +180,45 @@ impl VehicleData {
     }
 }
 
-impl EarthData {
-    /// Reads and checks the earth and atmosphere data; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// [`Error::Data`] with the key, the value and the limit.
-    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let data: Self = parse(file, text)?;
-        let check = Check { file };
-        check.increasing("air.layer_base_m", &data.air.layer_base_m.value)?;
-        let [bases, lapses] = [&data.air.layer_base_m, &data.air.layer_lapse_k_per_m];
+impl DataFile for EarthData {
+    fn check(&self, check: &Check) -> Result<(), Error> {
+        check.increasing("air.layer_base_m", &self.air.layer_base_m.value)?;
+        let [bases, lapses] = [&self.air.layer_base_m, &self.air.layer_lapse_k_per_m];
         check.that(bases.value.len() == lapses.value.len(), "air.layer_lapse_k_per_m", || {
             format!("{} values for {} layers", lapses.value.len(), bases.value.len())
         })?;
         check.that(bases.value.len() <= MAX_LAYERS, "air.layer_base_m", || {
             format!("{} layers, at most {MAX_LAYERS}", bases.value.len())
         })?;
-        check.positive("earth.gravity_m_per_s2", data.earth.gravity_m_per_s2.value)?;
-        check.positive("earth.radius_m", data.earth.radius_m.value)?;
-        Ok(data)
+        check.positive("earth.gravity_m_per_s2", self.earth.gravity_m_per_s2.value)?;
+        check.positive("earth.radius_m", self.earth.radius_m.value)?;
+        Ok(())
     }
 }
 
-impl AeroData {
-    /// Reads and checks a coefficient set; `file` is its name for messages.
-    ///
-    /// # Errors
-    /// [`Error::Data`] with the key, the value and the limit.
-    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let data: Self = parse(file, text)?;
-        let check = Check { file };
-        check.increasing("envelope.alpha_rad", &data.envelope.alpha_rad.value)?;
-        check.increasing("envelope.mach", &data.envelope.mach.value)?;
-        check.increasing("envelope.altitude_m", &data.envelope.altitude_m.value)?;
-        check.positive("reference.area_m2_per_m", data.reference.area_m2_per_m.value)?;
-        check.positive("reference.chord_m", data.reference.chord_m.value)?;
-        check.positive("inertia.i_yy_kg_m2_per_m", data.inertia.i_yy_kg_m2_per_m.value)?;
-        check.positive("reference.elastic_scale", data.reference.elastic_scale.value)?;
-        for ratio in data.inertia.structural_damping.value {
+impl DataFile for AeroData {
+    fn check(&self, check: &Check) -> Result<(), Error> {
+        check.increasing("envelope.alpha_rad", &self.envelope.alpha_rad.value)?;
+        check.increasing("envelope.mach", &self.envelope.mach.value)?;
+        check.increasing("envelope.altitude_m", &self.envelope.altitude_m.value)?;
+        check.positive("reference.area_m2_per_m", self.reference.area_m2_per_m.value)?;
+        check.positive("reference.chord_m", self.reference.chord_m.value)?;
+        check.positive("inertia.i_yy_kg_m2_per_m", self.inertia.i_yy_kg_m2_per_m.value)?;
+        check.positive("reference.elastic_scale", self.reference.elastic_scale.value)?;
+        for ratio in self.inertia.structural_damping.value {
             check.inside("inertia.structural_damping", ratio, [0.0, 1.0])?;
         }
-        let elevator = data.lift.delta_e.as_ref().map_or(0.0, |q| q.value);
+        let elevator = self.lift.delta_e.as_ref().map_or(0.0, |q| q.value);
         check.that(elevator != 0.0, "lift.delta_e", || "the elevator must lift".into())?;
-        for (key, fit) in [("thrust", &data.thrust), ("thrust_phi", &data.thrust_phi)] {
+        for (key, fit) in [("thrust", &self.thrust), ("thrust_phi", &self.thrust_phi)] {
             check.that(fit.delta_e.is_none() && fit.delta_e2.is_none(), key, || {
                 "thrust does not depend on the elevator".into()
             })?;
         }
         // The elastic terms are derived from loads that are quadratic in the incidence.
-        for (key, fit) in [("lift.alpha3", &data.lift), ("moment.alpha3", &data.moment)] {
+        for (key, fit) in [("lift.alpha3", &self.lift), ("moment.alpha3", &self.moment)] {
             check.that(fit.alpha3.is_none(), key, || "lift and moment must be quadratic".into())?;
         }
-        Ok(data)
+        Ok(())
     }
 }

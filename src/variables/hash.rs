@@ -1,7 +1,7 @@
 //! The identity of the model.
 
 use super::{Kind, Role, TABLE};
-use crate::params::{EARTH_TOML, PARKER2007_TOML, SHOCK_EXPANSION_TOML, VEHICLE_TOML, XU2015_TOML};
+use crate::params::{EARTH, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, XU2015};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
@@ -74,11 +74,14 @@ pub const MODEL_HASH: u128 = {
         }
         row += 1;
     }
-    hash = fnv_text(hash, VEHICLE_TOML);
-    hash = fnv_text(hash, EARTH_TOML);
-    hash = fnv_text(hash, XU2015_TOML);
-    hash = fnv_text(hash, PARKER2007_TOML);
-    hash = fnv_text(hash, SHOCK_EXPANSION_TOML);
+    hash = fnv_text(hash, VEHICLE.text);
+    hash = fnv_text(hash, EARTH.text);
+    hash = fnv_text(hash, XU2015.text);
+    hash = fnv_text(hash, PARKER2007.text);
+    hash = fnv_text(hash, SHOCK_EXPANSION.text);
+    if let Some(own) = OWN {
+        hash = fnv_text(hash, own.text);
+    }
     fnv_text(hash, env!("CARGO_PKG_VERSION"))
 };
 

@@ -4,6 +4,7 @@ use super::{Dependencies, Kind, Role, Unit, Variable};
 use crate::dynamics::{RIGID, STATES};
 use crate::flight::{Flight, Sample};
 use crate::parameters::InputMode;
+use crate::params::OWN;
 use crate::vehicle::{AeroSet, Configuration};
 
 const fn unit(name: &'static str, base: [i32; 4]) -> Unit {
@@ -175,18 +176,19 @@ const CONFIGURATION: Kind = Kind::Enumeration(
         ("SloshBeam", 3, "Flexible beam with sloshing propellant, 15 states"),
     ],
 );
-const AERO: Kind = Kind::Enumeration(
-    "Aero",
-    &[
-        (
-            "xu2015",
-            1,
-            "parker2007 moved as little as possible towards Tables 2 and 3 of Xu, Huang, Cai 2015",
-        ),
-        ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
-        ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
-    ],
-);
+const AERO_SETS: &[(&str, i32, &str)] = &[
+    (
+        "xu2015",
+        1,
+        "parker2007 moved as little as possible towards Tables 2 and 3 of Xu, Huang, Cai 2015",
+    ),
+    ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
+    ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
+    ("own", 4, "Coefficients that this FMU was built with"),
+];
+/// The last one only where there is one.
+const AERO: Kind =
+    Kind::Enumeration("Aero", AERO_SETS.split_at(AERO_SETS.len() - OWN.is_none() as usize).0);
 const INPUT_MODE: Kind = Kind::Enumeration(
     "InputMode",
     &[
@@ -221,7 +223,7 @@ pub static TABLE: [Variable; 68] = [
     output("delta_e_effective", ANGLE, "Elevator deflection in effect, absolute, after saturation", dependent(DELTA_E), |f| shown(f, |s| s.control[0])),
     output("phi_effective", ONE, "Fuel equivalence ratio in effect, absolute, after saturation", dependent(PHI), |f| shown(f, |s| s.control[1])),
     parameter("configuration", CONFIGURATION, None, "Which parts of the vehicle can move", |f| f.parameters().build.configuration as i32 as f64, |f, v| f.change(|p| p.build.configuration = match v as i32 { 1 => Configuration::Rigid, 2 => Configuration::EvenMassBeam, _ => Configuration::SloshBeam })),
-    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, v| f.change(|p| p.build.aero = match v as i32 { 2 => AeroSet::Parker2007, 3 => AeroSet::ShockExpansion, _ => AeroSet::Xu2015 })),
+    parameter("aero", AERO, None, "Coefficient set", |f| f.parameters().build.aero as i32 as f64, |f, v| f.change(|p| p.build.aero = match v as i32 { 2 => AeroSet::Parker2007, 3 => AeroSet::ShockExpansion, 4 => AeroSet::Own, _ => AeroSet::Xu2015 })),
     parameter("fuel_fraction", Kind::Real(ONE), Some([0.0, 1.0]), "Propellant left", |f| f.parameters().build.fuel_fraction, |f, v| f.change(|p| p.build.fuel_fraction = v)),
     parameter("slosh_damping", Kind::Real(ONE), Some([0.0, 1.0]), "Damping ratio of the sloshing masses", |f| f.parameters().build.slosh_damping, |f, v| f.change(|p| p.build.slosh_damping = v)),
     parameter("slosh_frequency", Kind::Real(FREQUENCY), Some([0.0, 100.0]), "Frequency of the sloshing masses on their springs, 0.1 rad/s and more; 0 takes it from the geometry of the tanks", |f| f.parameters().build.slosh_frequency, |f, v| f.change(|p| p.build.slosh_frequency = v)),

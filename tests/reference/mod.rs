@@ -6,7 +6,7 @@ mod double_double;
 
 use ahv::beam::{Beam, Oscillator};
 use ahv::modes::Modes;
-use ahv::params::{VEHICLE_TOML, VehicleData};
+use ahv::params::{DataFile, VEHICLE, VehicleData};
 use ahv::slosh::{SloshSettings, SloshingTank};
 pub use double_double::{Dd, exact};
 
@@ -16,7 +16,7 @@ const BAND: usize = 3;
 pub type Vector = Vec<Dd>;
 
 pub fn vehicle() -> VehicleData {
-    VehicleData::parse("vehicle.toml", VEHICLE_TOML).unwrap()
+    VehicleData::embedded(&VEHICLE).unwrap()
 }
 
 /// The vehicle with its tanks; gravity as in level flight at Mach 8.

@@ -3,7 +3,7 @@
 use super::Effort;
 use super::peers::{environment, lines, spread};
 use super::report::Report;
-use crate::package;
+use crate::package::{self, Targets};
 use crate::workspace::check;
 use crate::workspace::{cargo, root, target};
 use anyhow::Result;
@@ -40,7 +40,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let python = environment("pythonfmu", &PACKAGES)?;
     let mut command = Command::new(&python);
     command.arg(root().join("build/bench/fmpy_steps.py")).arg((3 * effort.repeats).to_string());
-    command.arg(package::fresh()?).arg(idle()?);
+    command.arg(package::fresh(Targets::Possible)?).arg(idle()?);
     match python_fmu(&python) {
         Ok(file) => {
             command.arg(file);

@@ -5,7 +5,7 @@ use super::precision::{Point, TOLERANCES};
 use super::spread::Spread;
 use crate::fmu::Fmu;
 use crate::methods::error;
-use crate::package;
+use crate::package::{self, Targets};
 use crate::workspace::check;
 use crate::workspace::{root, target};
 use ahv::dynamics::State;
@@ -36,7 +36,7 @@ pub fn sundials(effort: &Effort, exact: &State) -> Result<Vec<Point>> {
     if !output.status.success() {
         bail!("build/bench/sundials.c does not build; on Debian: apt-get install libsundials-dev");
     }
-    let fmu = Fmu::open(&package::fresh()?)?;
+    let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
     let elevator = fmu.model.find("delta_e").ok_or_else(|| anyhow!("no elevator"))?;
     let reference = elevator.value_reference.to_string();
     let repeats = (2 * effort.repeats).to_string();

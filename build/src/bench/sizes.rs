@@ -5,7 +5,7 @@ use super::report::Report;
 use super::spread::Spread;
 use crate::fmu::Fmu;
 use crate::master::Instance;
-use crate::package;
+use crate::package::{self, Targets};
 use ahv::flight::DEFAULT_TOLERANCE;
 use ahv::fmi::snapshot::FmuState;
 use anyhow::{Context, Result};
@@ -19,7 +19,7 @@ fn resident() -> Result<f64> {
 }
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let fmu = Fmu::open(&package::fresh()?)?;
+    let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
     let library = std::fs::metadata(&fmu.binary)?.len() as f64 / 1e6;
     report.line("library", Spread::exact(library), "MB", "aim 1");
     let bytes = FmuState::encoded_len() as f64 / 1e3;

@@ -8,7 +8,7 @@ use crate::cli::Set;
 use crate::fmu::Fmu;
 use crate::master::Instance;
 use crate::modes::solved_elements;
-use crate::package;
+use crate::package::{self, Targets};
 use crate::trim::{flight, model, ready};
 use crate::workspace::{root, target, write};
 use ahv::flight::DEFAULT_TOLERANCE;
@@ -23,7 +23,7 @@ use std::time::Instant;
 const ELEMENTS: [u32; 5] = [125, 250, 500, 1000, 2000];
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let fmu = Fmu::open(&package::fresh()?)?;
+    let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
     let mut parts: [Vec<f64>; 3] = Default::default();
     for _ in 0..10 * effort.repeats {
         let started = Instant::now();

@@ -1,6 +1,6 @@
 //! The numbers of a coefficient set that may move, how freely, and the file of the moved set.
 
-use ahv::params::{AeroData, PARKER2007_TOML};
+use ahv::params::{AeroData, PARKER2007};
 use anyhow::{Result, anyhow};
 use nalgebra::DVector;
 use std::fmt::Write;
@@ -70,7 +70,7 @@ fn number<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut f64> {
 
 impl Origin {
     pub fn new() -> Result<Self> {
-        let mut origin = Self { table: PARKER2007_TOML.parse()? };
+        let mut origin = Self { table: PARKER2007.text.parse()? };
         for (key, _) in MOVABLE {
             number(&mut origin.table, key).ok_or_else(|| anyhow!("parker2007.toml: no {key}"))?;
         }
@@ -108,7 +108,7 @@ impl Origin {
         let values = self.values(point);
         let mut text = HEADER.to_string();
         let mut section = String::new();
-        for line in PARKER2007_TOML.lines().skip_while(|line| line.starts_with('#')) {
+        for line in PARKER2007.text.lines().skip_while(|line| line.starts_with('#')) {
             if let Some(name) = line.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')) {
                 section = name.to_string();
             }
@@ -161,13 +161,14 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ahv::params::DataFile;
 
     #[test]
     fn a_set_that_does_not_move_is_the_published_one() {
         let origin = Origin::new().unwrap();
         let text = origin.file(&DVector::zeros(MOVABLE.len())).unwrap();
         let body = |text: &str| text.lines().skip_while(|l| l.starts_with('#')).collect::<String>();
-        assert_eq!(body(&text), body(PARKER2007_TOML));
+        assert_eq!(body(&text), body(PARKER2007.text));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How well the curves of `shock_expansion` fit, read from the head of its data file.
 
-use ahv::params::SHOCK_EXPANSION_TOML;
+use ahv::params::SHOCK_EXPANSION;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
@@ -29,7 +29,7 @@ fn cells(line: &str) -> Vec<&str> {
 
 impl FitErrors {
     pub fn embedded() -> Result<Self> {
-        Self::parse(SHOCK_EXPANSION_TOML)
+        Self::parse(SHOCK_EXPANSION.text)
             .ok_or_else(|| anyhow!("shock_expansion.toml: no table of errors in its head"))
     }
 
@@ -84,7 +84,7 @@ mod tests {
 
     #[test]
     fn another_head_is_none() {
-        let text = SHOCK_EXPANSION_TOML.replace("0.22844", "much");
+        let text = SHOCK_EXPANSION.text.replace("0.22844", "much");
         assert!(FitErrors::parse(&text).is_none());
         assert!(FitErrors::parse("# Curve fits\n[reference]\n").is_none());
     }
