@@ -9,8 +9,8 @@ FOOT = 0.3048
 # MIL-F-8785C, 3.7.2.1: scale of all components above 2000 ft.
 SCALE_M = 1750.0 * FOOT
 # MIL-F-8785C, fig. 7: standard deviation at 80,000 ft, the highest altitude it knows, exceeded with
-# this probability. "Light" (1e-2) and "moderate" (1e-3) turbulence have none up there.
-SIGMA_M_PER_S = {"1e-4": 2.1 * FOOT, "1e-5, severe": 5.1 * FOOT}
+# this probability. 1e-5 is called severe; light (1e-2) and moderate (1e-3) air is still up there.
+SIGMA_M_PER_S = {"1e-4": 2.1 * FOOT, "1e-5": 5.1 * FOOT}
 
 
 def filter_of(sigma: float, speed: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -44,6 +44,8 @@ def turbulence(
 def gust(
     peak: float, gradient_m: float, speed: float, steps: int, period_s: float, start_s: float
 ) -> np.ndarray:
-    """One minus cosine at steps + 1 points: `peak`, m/s, is reached after `gradient_m`."""
+    """One minus cosine, as in CS-25.341(a)(2), at steps + 1 points: `peak`, m/s, is reached after
+    the way `gradient_m`, and again as much later all is over.
+    """
     way = (np.arange(steps + 1) * period_s - start_s) * speed / gradient_m
     return np.where((way > 0.0) & (way < 2.0), peak / 2.0 * (1.0 - np.cos(np.pi * way)), 0.0)

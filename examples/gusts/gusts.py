@@ -1,4 +1,4 @@
-"""The closed loop in air that rises and falls: Dryden turbulence, gusts of many lengths."""
+"""The closed loop in air that rises and falls: Dryden turbulence, single gusts of many lengths."""
 
 from __future__ import annotations
 
@@ -25,14 +25,26 @@ except ModuleNotFoundError as missing:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
+# All of one size, to compare lengths; to 20 m/s the answer is proportional within a tenth.
 PEAK_M_PER_S = 5.0
-GRADIENTS_M = [50, 100, 200, 400, 800, 1600, 3200]
+# From the longest of CS-25.341 (350 ft) upwards: at Mach 8 that one is over in 0.09 s.
+GRADIENTS_M = [107, 214, 428, 856, 1712, 3424]
+DRAWN_M = [107, 428, 1712]
 START_S, GUST_S = 0.5, 12.0
-SHOWN = ("eta1", "slosh1", "n_z")
-# Columns of Flight.rows.
-TIME, GAMMA, ETA1, SLOSH, LOAD, ELEVATOR = 0, 2, 4, 5, 6, 7
+# Of the turbulence, in the picture.
+SHOWN_S = 20.0
+SEVERE = max(SIGMA_M_PER_S, key=SIGMA_M_PER_S.get)
+SHOWN = ("alpha", "n_z", "eta1", "slosh1")
+COLUMNS = ("gamma_deg", "incidence_deg", "n_z_g", "nose_mm", "slosh_mm", "elevator_deg")
+PANELS = {
+    "incidence_deg": "incidence, deg",
+    "n_z_g": "load factor, g",
+    "nose_mm": "nose, mm",
+    "slosh_mm": "slosh, fore, mm",
+    "elevator_deg": "elevator, deg",
+}
 # Baffles or none.
-DAMPINGS = {"slosh damping 0.05": {}, "slosh damping 0.01": {"slosh_damping": 0.01}}
+DAMPINGS = (0.05, 0.01)
 
 
 def autopilots(folder: str) -> tuple[Law, Law]:
@@ -43,32 +55,40 @@ def autopilots(folder: str) -> tuple[Law, Law]:
 
 
 def meet(folder: str, law: Law, air: np.ndarray, **parameters: float) -> Flight:
-    """Level flight through this air; shape (steps + 1,), m/s."""
+    """Level flight through this air; shape (steps + 1,), m/s, up."""
     return fly(folder, law, np.zeros((len(air) - 1, 2)), SHOWN, gust=air, **parameters)
 
 
-def away(rows: np.ndarray) -> np.ndarray:
-    """What is shown as deviations from the first row: deg, 1 mm, 1 mm, g, deg, deg/s."""
-    moved = rows - rows[0]
-    rate = np.gradient(rows[:, ELEVATOR], rows[:, TIME])
-    return np.column_stack(
-        [
-            moved[:, GAMMA] / design.DEG,
-            moved[:, ETA1] * 1e3,
-            moved[:, SLOSH] * 1e3,
-            moved[:, LOAD],
-            moved[:, ELEVATOR] / design.DEG,
-            rate / design.DEG,
-        ]
-    )
+def values(rows: np.ndarray, w: np.ndarray | float) -> np.ndarray:
+    """COLUMNS of rows of a flight, shape (rows, 6); incidence is that to air rising at w."""
+    _, speed, gamma, _, alpha, n_z, nose, slosh, elevator, _ = rows.T
+    met = alpha + gamma - np.arctan2(speed * np.sin(gamma) - w, speed * np.cos(gamma))
+    degrees = [gamma / design.DEG, met / design.DEG]
+    return np.column_stack([*degrees, n_z, nose * 1e3, slosh * 1e3, elevator / design.DEG])
 
 
-HEAD = "gamma deg | nose mm | slosh mm | n_z g | elevator deg | its rate deg/s |"
+def away(folder: str, flight: Flight, air: np.ndarray) -> np.ndarray:
+    """COLUMNS as changes from trimmed flight in still air."""
+    still = meet(folder, flight.pilot.law, np.zeros(2)).rows
+    return values(flight.rows, air[1 : len(flight.rows) + 1]) - values(still, 0.0)
 
 
-def line(name: str, values: np.ndarray) -> str:
+def line(*cells: object) -> str:
     """A row of a table."""
-    return f"| {name} | " + " | ".join(f"{value:.3g}" for value in values) + " |"
+    shown = [f"{cell:.3g}" if isinstance(cell, float) else str(cell) for cell in cells]
+    return f"| {' | '.join(shown)} |"
+
+
+def write(path: Path, head: tuple[str, ...], rows: np.ndarray) -> None:
+    """A CSV file; every number reads back as the same double."""
+    np.savetxt(path, rows, fmt="%.17g", delimiter=",", header=",".join(head), comments="")
+
+
+def draw(axes: np.ndarray, rows: np.ndarray, label: str, style: str) -> None:
+    """One flight, one panel below the other."""
+    axes[0].plot(rows[:, 0], rows[:, 1], style, lw=1, label=label)
+    for axis, name in zip(axes[1:], PANELS, strict=True):
+        axis.plot(rows[:, 0], rows[:, 2 + COLUMNS.index(name)], style, lw=1)
 
 
 def main() -> None:
@@ -76,7 +96,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--stop", type=float, default=120.0, help="s, of the turbulence")
-    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--seed", type=int, default=1, help="of the turbulence")
     parser.add_argument("--output", type=Path, default=Path("target/gusts"))
     options = parser.parse_args()
     if not options.fmu.is_file():
@@ -84,55 +104,61 @@ def main() -> None:
     options.output.mkdir(parents=True, exist_ok=True)
     folder = extract(str(options.fmu))
     law, idle = autopilots(folder)
-    speed, period, steps = law.level[0], law.period_s, round(options.stop / law.period_s)
+    speed, period = law.level[0], law.period_s
+    figure, axes = plt.subplots(6, 2, figsize=(9, 9), sharex="col", layout="constrained")
 
-    figure, axes = plt.subplots(2, 4, figsize=(11, 5), layout="constrained")
-    print(f"turbulence, standard deviations over {options.stop:g} s:\n| sigma, m/s | {HEAD}")
+    def flown(name: str, air: np.ndarray, **parameters: float) -> np.ndarray:
+        """Rows of time, air and COLUMNS, written as CSV; the flight must not end early."""
+        flight = meet(folder, law, air, **parameters)
+        changes = away(folder, flight, air)
+        rows = np.column_stack([flight.rows[:, 0], air[1 : len(changes) + 1], changes])
+        write(options.output / f"{name}.csv", ("time_s", "w_gust_m_per_s", *COLUMNS), rows)
+        if flight.ended:
+            sys.exit(f"error: the flight {name}.csv ended early: {flight.ended}")
+        return rows
+
+    print(f"turbulence, standard deviations over {options.stop:g} s:")
+    print(line("exceeded with", "sigma, m/s", "slosh damping", *COLUMNS))
+    steps = round(options.stop / period)
     for name, sigma in SIGMA_M_PER_S.items():
         air = turbulence(sigma, speed, steps, period, options.seed)
-        for damping, parameters in DAMPINGS.items():
-            flown = meet(folder, law, air, **parameters)
-            if flown.ended:
-                sys.exit(f"error: lost in turbulence: {flown.ended}")
-            print(line(f"{sigma:.2f} ({name}), {damping}", away(flown.rows).std(axis=0)))
-    free = meet(folder, idle, air)
-    print(f"without autopilot: {free.rows[-1, TIME]:.2f} s, {free.ended}")
-    shown, values = flown.rows[:, TIME] <= 20.0, away(flown.rows)
-    axes[0, 0].plot(flown.rows[shown, TIME], air[1:][shown], "C7", lw=0.8)
-    for axis, column in zip(axes[0, 1:], (3, 2, 4), strict=True):
-        axis.plot(flown.rows[shown, TIME], values[shown, column], "C0", lw=0.8)
+        for damping in DAMPINGS:
+            rows = flown(f"turbulence_{name}_{damping:g}", air, slosh_damping=damping)
+            print(line(name, sigma, damping, *rows[:, 2:].std(axis=0)))
+            if name == SEVERE and damping == DAMPINGS[0]:
+                draw(axes[:, 0], rows, "", "C0")
+                free = meet(folder, idle, air)
+    if free.ended:
+        print(f"without autopilot lost after {free.rows[-1, 0]:.1f} s: {free.ended}")
 
-    count = round(GUST_S / period)
-    rows = {damping: [] for damping in DAMPINGS}
-    for damping, parameters in DAMPINGS.items():
-        print(f"\ngust of {PEAK_M_PER_S:g} m/s, {damping}, largest:\n| gradient length, m | {HEAD}")
-        for gradient in GRADIENTS_M:
-            air = gust(PEAK_M_PER_S, gradient, speed, count, period, START_S)
-            flown = meet(folder, law, air, **parameters)
-            if flown.ended:
-                sys.exit(f"error: lost in a gust: {flown.ended}")
-            rows[damping].append(np.abs(away(flown.rows)).max(axis=0))
-            print(line(f"{gradient}", rows[damping][-1]))
-            if gradient == 400 and not parameters:
-                axes[1, 0].plot(flown.rows[:, TIME], air[1:], "C7", lw=1)
-                axes[1, 0].set_xlim(0.0, 2.0)
-    for axis, column in zip(axes[1, 1:], (3, 2, 4), strict=True):
-        for (damping, table), style in zip(rows.items(), ("C0o-", "C3s--"), strict=True):
-            axis.semilogx(GRADIENTS_M, np.array(table)[:, column], style, ms=4, label=damping)
-        axis.axvspan(GRADIENTS_M[0] * 0.8, 100, color="C7", alpha=0.25, lw=0)
-        axis.set_xlabel("gradient length, m; grey: too sharp", fontsize=8)
-    labels = ("load factor, g", "slosh, fore tank, mm", "elevator, deg")
-    for axis, label in zip(axes[0], ("turbulence, m/s", *labels), strict=True):
-        axis.set(xlabel="time, s", ylabel=label)
-    for axis, label in zip(axes[1], ("gust of 400 m, m/s", *labels), strict=True):
-        axis.set_ylabel(label if axis is axes[1, 0] else f"largest {label}")
-    axes[1, 0].set_xlabel("time, s")
-    axes[1, 2].legend(fontsize=8)
-    for axis in axes.ravel():
-        axis.grid(alpha=0.3)
+    print(f"\ngusts of {PEAK_M_PER_S:g} m/s, largest changes:")
+    print(line("gradient, m", "slosh damping", *COLUMNS))
+    largest, styles = [], iter(("C0", "C1--", "k:"))
+    for gradient in GRADIENTS_M:
+        air = gust(PEAK_M_PER_S, gradient, speed, round(GUST_S / period), period, START_S)
+        for damping in DAMPINGS:
+            rows = flown(f"gust_{gradient}_{damping:g}", air, slosh_damping=damping)
+            largest.append([gradient, damping, *np.abs(rows[:, 2:]).max(axis=0)])
+            print(line(gradient, *map(float, largest[-1][1:])))
+            if damping == DAMPINGS[0] and gradient in DRAWN_M:
+                draw(axes[:, 1], rows, f"{gradient} m", next(styles))
+    head = ("gradient_m", "slosh_damping", *COLUMNS)
+    write(options.output / "largest.csv", head, np.array(largest))
+
+    for column in axes.T:
+        for axis, label in zip(column, ("air, m/s, up", *PANELS.values()), strict=True):
+            axis.set_ylabel(label)
+            axis.grid(alpha=0.3)
+        column[-1].set_xlabel("time, s")
+    axes[0, 0].set_title(f"turbulence, {SIGMA_M_PER_S[SEVERE]:.2f} m/s", fontsize=10)
+    axes[0, 1].set_title(f"gusts of {PEAK_M_PER_S:g} m/s", fontsize=10)
+    axes[0, 0].set_xlim(0.0, min(SHOWN_S, options.stop))
+    axes[0, 1].set_xlim(0.0, 4.0)
+    axes[0, 1].legend(title="gradient length", fontsize=8, title_fontsize=8)
+    figure.align_ylabels()
     figure.savefig(options.output / "gusts.png", dpi=110)
     plt.close(figure)
-    print(f"\n{options.output / 'gusts.png'}")
+    print(f"\n{options.output}: gusts.png, largest.csv, and each flight")
 
 
 if __name__ == "__main__":

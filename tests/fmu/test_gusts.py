@@ -14,6 +14,7 @@ from scipy.signal import welch
 import air
 import gusts
 from harness import Package
+from linear_model import linear_model
 
 SIGMA, SPEED, PERIOD_S = 1.5, 2400.0, 0.01
 
@@ -52,15 +53,43 @@ def test_gust_is_one_minus_cosine() -> None:
     assert w[:50].max() == w[70:].max() == 0.0
 
 
+def test_a_short_gust_loads_the_vehicle_as_its_lift_slope_says(package: Package) -> None:
+    """Before the vehicle turns, w is a change of incidence by w / V and nothing else."""
+    folder = str(package.folder)
+    law, _ = gusts.autopilots(folder)
+    model = linear_model(folder, ("n_z",))
+    slope = model.C[0, model.states.index("alpha")]
+    w = air.gust(1.0, 107.0, law.level[0], 30, law.period_s, 0.0)
+    met = gusts.away(folder, gusts.meet(folder, law, w), w)
+    load = met[:, gusts.COLUMNS.index("n_z_g")].max()
+    # The peak falls between two points, and the nose has begun to rise.
+    assert load == pytest.approx(slope / law.level[0], rel=0.03)
+
+
+def test_air_that_rises_for_long_only_turns_the_vehicle_into_its_wind(package: Package) -> None:
+    folder = str(package.folder)
+    law, _ = gusts.autopilots(folder)
+    w = np.minimum(np.arange(12_001) * law.period_s / 20.0, 1.0) * gusts.PEAK_M_PER_S
+    flight = gusts.meet(folder, law, w)
+    assert not flight.ended
+    met = dict(zip(gusts.COLUMNS, gusts.away(folder, flight, w)[-1], strict=True))
+    # What the speed, still on its way back, and the change of height leave.
+    assert abs(met["incidence_deg"]) < 2e-3 and abs(met["n_z_g"]) < 1e-3
+    turned = flight.rows[-1, 4] - flight.rows[0, 4]
+    assert turned == pytest.approx(-gusts.PEAK_M_PER_S / law.level[0], rel=0.02)
+
+
 def test_the_loop_holds_where_the_vehicle_alone_is_lost(package: Package) -> None:
-    law, idle = gusts.autopilots(str(package.folder))
+    folder = str(package.folder)
+    law, idle = gusts.autopilots(folder)
     severe = max(air.SIGMA_M_PER_S.values())
     w = air.turbulence(severe, law.level[0], 1000, law.period_s)
-    held, free = (gusts.meet(str(package.folder), pilot, w) for pilot in (law, idle))
+    held, free = (gusts.meet(folder, pilot, w) for pilot in (law, idle))
     assert not held.ended and len(held.rows) == 1000
-    assert "alpha" in free.ended and free.rows[-1, gusts.TIME] < 5.0
-    # Five standard deviations of what README.md says.
-    assert np.abs(gusts.away(held.rows)[:, 3]).max() < 0.09
+    assert "alpha" in free.ended and free.rows[-1, 0] < 5.0
+    load = gusts.away(folder, held, w)[:, gusts.COLUMNS.index("n_z_g")]
+    # Five standard deviations of what the example's README says.
+    assert np.abs(load).max() < 5 * 0.0172
 
 
 def test_example_runs(package: Package, tmp_path: Path) -> None:
@@ -69,5 +98,9 @@ def test_example_runs(package: Package, tmp_path: Path) -> None:
         [*command, "--output", str(tmp_path)], capture_output=True, text=True, check=False
     )
     assert run.returncode == 0, run.stderr
-    assert "without autopilot" in run.stdout
+    assert "without autopilot lost" in run.stdout
     assert (tmp_path / "gusts.png").stat().st_size > 10_000
+    largest = np.genfromtxt(tmp_path / "largest.csv", delimiter=",", names=True)
+    assert sorted(set(largest["gradient_m"])) == gusts.GRADIENTS_M
+    flight = np.genfromtxt(tmp_path / "gust_428_0.05.csv", delimiter=",", names=True)
+    assert np.abs(flight["n_z_g"]).max() == largest["n_z_g"][largest["gradient_m"] == 428][0]
