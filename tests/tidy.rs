@@ -183,3 +183,35 @@ fn tidy_the_way_from_the_paper_leads_to_what_exists() {
     }
     assert!(seen.iter().all(|&count| count > 5), "commands, paths, variables, tests: {seen:?}");
 }
+
+#[test]
+fn tidy_links_and_pictures_of_every_page_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pages: Vec<_> = fs::read_dir(root.join("examples"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path().join("README.md"))
+        .filter(|page| page.exists())
+        .collect();
+    pages.extend(
+        ["README.md", "examples/README.md", "examples/FROM_THE_PAPER.md", "tests/README.md"]
+            .map(|page| root.join(page)),
+    );
+    let mut seen = 0;
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let pictures = text.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        for link in links.chain(pictures).filter(|link| !link.contains("://")) {
+            let (file, place) = link.split_once('#').unwrap_or((link, ""));
+            let target = page.parent().unwrap().join(file);
+            let target = if file.is_empty() { page.clone() } else { target };
+            assert!(target.exists(), "{}: {link}", page.display());
+            let anchors = fs::read_to_string(&target).unwrap_or_default().to_lowercase();
+            let heading = |line: &str| line.trim_start_matches('#').trim().replace(' ', "-");
+            let known = anchors.lines().any(|line| line.starts_with('#') && heading(line) == place);
+            assert!(place.is_empty() || known, "{}: {link}", page.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "links and pictures: {seen}");
+}
