@@ -18,6 +18,7 @@
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
 //! | [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
+//! | [`errata`] | where the paper is wrong or silent, with derivations | |
 //! | [`fmi`] | the FMU's C interface | FMI 2.0.5 |
 //!
 //! The paper: Xu, Huang, Cai, "Flight dynamic analysis of hypersonic vehicle considering
@@ -33,6 +34,8 @@ pub mod burn;
 pub mod dop853;
 pub mod dynamics;
 pub mod envelope;
+#[doc = include_str!("data/errata.md")]
+pub mod errata {}
 pub mod error;
 pub mod flight;
 pub mod fmi;

@@ -26,6 +26,29 @@ fn files(folder: &str, kind: &str) -> Vec<(PathBuf, String)> {
     found
 }
 
+fn read(file: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap()
+}
+
+/// What stands between backquotes.
+fn quoted(text: &str) -> Vec<&str> {
+    text.split('`').skip(1).step_by(2).collect()
+}
+
+/// All code that may hold a test.
+fn tested() -> String {
+    ["src", "build", "tests"]
+        .iter()
+        .flat_map(|folder| sources(folder))
+        .chain(files("tests/fmu", "py"))
+        .map(|(_, text)| text)
+        .collect()
+}
+
+fn is_test(code: &str, name: &str) -> bool {
+    ["fn", "def"].iter().any(|word| code.contains(&format!("{word} {name}(")))
+}
+
 fn in_boundary(path: &Path) -> bool {
     path.components().any(|part| part.as_os_str() == "fmi")
 }
@@ -110,10 +133,8 @@ fn tidy_errata_count_on_and_name_tests_that_exist() {
     assert_eq!(numbers, (1..=numbers.len()).collect::<Vec<_>>());
 
     let tests = sources("tests");
-    let named: Vec<&str> = errata
-        .split('`')
-        .skip(1)
-        .step_by(2)
+    let named: Vec<&str> = quoted(errata)
+        .into_iter()
         .filter(|word| word.starts_with("paper_") || word.starts_with("verif_"))
         .collect();
     assert!(named.len() > 5, "errata name the tests that hold them");
@@ -127,22 +148,70 @@ fn tidy_errata_count_on_and_name_tests_that_exist() {
 
 #[test]
 fn tidy_every_pain_in_the_table_has_tests_that_exist() {
-    let code: String = ["src", "build", "tests"]
-        .iter()
-        .flat_map(|folder| sources(folder))
-        .chain(files("tests/fmu", "py"))
-        .map(|(_, text)| text)
-        .collect();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/README.md");
-    let table = fs::read_to_string(path).unwrap();
+    let code = tested();
+    let table = read("tests/README.md");
     let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
     assert!(rows.len() > 10, "the table of pains");
     for row in rows {
-        let tests: Vec<_> = row.split('`').skip(1).step_by(2).collect();
+        let tests = quoted(row);
         assert!(!tests.is_empty(), "no test: {row}");
         for test in tests {
-            let exists = ["fn", "def"].iter().any(|word| code.contains(&format!("{word} {test}(")));
-            assert!(exists, "no such test: {test}");
+            assert!(is_test(&code, test), "no such test: {test}");
         }
     }
+}
+
+#[test]
+fn tidy_the_way_from_the_paper_leads_to_what_exists() {
+    let (code, table) = (tested(), read("examples/FROM_THE_PAPER.md"));
+    let (variables, commands) =
+        (read("modelDescription/modelDescription.xml"), read("build/src/cli.rs").to_lowercase());
+    let mut seen = [0; 4];
+    for word in quoted(&table) {
+        let (kind, exists) = if let Some(command) = word.strip_prefix("cargo ahv ") {
+            let name = command.split(' ').next().unwrap_or_default();
+            (0, commands.contains(&format!("    {name}(")))
+        } else if word.contains('/') {
+            (1, Path::new(env!("CARGO_MANIFEST_DIR")).join(word).exists())
+        } else if variables.contains(&format!("<ScalarVariable name=\"{word}\"")) {
+            (2, true)
+        } else {
+            (3, is_test(&code, word))
+        };
+        assert!(exists, "FROM_THE_PAPER.md names `{word}`: no such thing");
+        seen[kind] += 1;
+    }
+    assert!(seen.iter().all(|&count| count > 5), "commands, paths, variables, tests: {seen:?}");
+}
+
+#[test]
+fn tidy_links_and_pictures_of_every_page_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut pages: Vec<_> = fs::read_dir(root.join("examples"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path().join("README.md"))
+        .filter(|page| page.exists())
+        .collect();
+    pages.extend(
+        ["README.md", "examples/README.md", "examples/FROM_THE_PAPER.md", "tests/README.md"]
+            .map(|page| root.join(page)),
+    );
+    let mut seen = 0;
+    for page in pages {
+        let text = fs::read_to_string(&page).unwrap();
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+        let pictures = text.split("src=\"").skip(1).filter_map(|rest| rest.split('"').next());
+        for link in links.chain(pictures).filter(|link| !link.contains("://")) {
+            let (file, place) = link.split_once('#').unwrap_or((link, ""));
+            let target = page.parent().unwrap().join(file);
+            let target = if file.is_empty() { page.clone() } else { target };
+            assert!(target.exists(), "{}: {link}", page.display());
+            let anchors = fs::read_to_string(&target).unwrap_or_default().to_lowercase();
+            let heading = |line: &str| line.trim_start_matches('#').trim().replace(' ', "-");
+            let known = anchors.lines().any(|line| line.starts_with('#') && heading(line) == place);
+            assert!(place.is_empty() || known, "{}: {link}", page.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "links and pictures: {seen}");
 }

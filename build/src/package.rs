@@ -6,10 +6,13 @@ mod cross_check;
 mod icon;
 mod library;
 mod platform;
+mod related;
+mod terminals;
 mod windows;
 
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
+use crate::fmu::Fmu;
 use crate::workspace::{read, shown, target, write};
 use crate::{documentation, licenses};
 use anyhow::{Result, bail};
@@ -64,9 +67,7 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
         bail!("{}", libraries.missing.join("\n"));
     }
     let mut files = contents(&libraries.found)?;
-    for (name, content) in reference(&files)? {
-        files.insert(format!("documentation/cross-check/{name}"), content);
-    }
+    files.extend(reference(&files)?);
     write_fmu(files, output)?;
     for (platform, library) in &libraries.found {
         let binary = Binary::parse(&read(library)?)?;
@@ -151,7 +152,9 @@ fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.insert("documentation/index.html".to_string(), documentation::html()?.into_bytes());
     files.extend(licenses::collect()?);
-    files.insert("model.png".to_string(), icon::png()?);
+    let picture = icon::png()?;
+    files.extend(terminals::files(&picture)?);
+    files.insert("model.png".to_string(), picture);
     for (platform, library) in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
         files.insert(name, read(library)?);
@@ -164,7 +167,10 @@ fn reference(files: &Files) -> Result<Files> {
     let directory = TempDir::with_prefix("fmu-")?;
     let file = directory.path().join("ahv.fmu");
     write(&file, archive::zip(files)?)?;
-    cross_check::fly_reference(&file)
+    let fmu = Fmu::open(&file)?;
+    let mut found = cross_check::fly_reference(&fmu)?;
+    found.extend(related::files(&fmu.model)?);
+    Ok(found)
 }
 
 /// Writes the FMU and says what it is.

@@ -13,11 +13,16 @@ use std::time::Instant;
 /// A named step.
 type Step = (&'static str, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 14] = [
     ("prerequisites", |_| prerequisites()),
     ("format", |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", |_| {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
+    }),
+    ("documentation", |_| {
+        let mut doc = cargo();
+        doc.args(["doc", "--package", "ahv-fmu", "--no-deps"]);
+        check(doc.env("RUSTDOCFLAGS", "-D warnings"))
     }),
     ("Rust tests", |_| {
         // The long fuzz has a step of its own.

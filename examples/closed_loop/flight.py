@@ -60,6 +60,7 @@ class Vehicle:
         self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
         self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
         self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
+        self._gust = self._references(("w_gust",))
 
     def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
         if status != fmi2OK:
@@ -93,6 +94,14 @@ class Vehicle:
             self._fmu.fmi2SetRealInputDerivatives(
                 self._fmu.component, self._into, 2, orders, pointer(slopes)
             )
+
+    def gust(self, speed: float, rate: float) -> None:
+        """Set w_gust, m/s, up; it moves by `rate` per second within the next step."""
+        component, one = self._fmu.component, (ctypes.c_int * 1)(1)
+        self._fmu.fmi2SetReal(component, self._gust, 1, (ctypes.c_double * 1)(speed))
+        self._fmu.fmi2SetRealInputDerivatives(
+            component, self._gust, 1, one, (ctypes.c_double * 1)(rate)
+        )
 
     def step(self, size_s: float) -> None:
         """One communication step."""
@@ -157,10 +166,12 @@ def fly(
     commands: np.ndarray,
     outputs: tuple[str, ...] = (),
     effect: np.ndarray | float = 1.0,
+    gust: np.ndarray | None = None,
     **parameters: float,
 ) -> Flight:
     """Fly `commands`, shape (steps, 2), in closed loop; `effect` multiplies delta_e and phi.
 
+    `gust`, m/s, shape (steps + 1,): w_gust at the communication points, linear between them.
     What the law calls level flight is that of this vehicle, as if it had been trimmed before.
     """
     rows, ended, pilot = [], "", Autopilot(law)
@@ -168,8 +179,10 @@ def fly(
         values, held = vehicle.read(), np.zeros(2)
         level = values[:3] - law.level
         try:
-            for wish in commands:
+            for k, wish in enumerate(commands):
                 vehicle.command(held * effect)
+                if gust is not None:
+                    vehicle.gust(gust[k], (gust[k + 1] - gust[k]) / law.period_s)
                 vehicle.step(law.period_s)
                 held = pilot.step(values[:3] - level, wish)
                 values = vehicle.read()

@@ -31,7 +31,7 @@ PANELS = [
     ("$\\delta_e$, deg", [("vehicle.delta_e_effective", "")], 57.296),
     ("fuel ratio", [("vehicle.phi_effective", "")], 1.0),
     ("slosh, m", [("vehicle.slosh1", "fore"), ("vehicle.slosh2", "aft")], 1.0),
-    ("nose, m", [("vehicle.eta1", "first mode")], 1.0),
+    ("$\\eta_1$, m of nose", [("vehicle.eta1", "")], 1.0),
 ]
 
 

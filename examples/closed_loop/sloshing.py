@@ -83,7 +83,7 @@ def cell(row: dict[str, float | str]) -> str:
 def picture(rows: list[dict[str, float | str]], path: Path) -> None:
     """Least distance from -1 over each sweep; zero where the loop is unstable."""
     figure, axes = plt.subplots(
-        1, len(SWEEPS), figsize=(11, 3.2), sharey=True, layout="constrained"
+        1, len(SWEEPS), figsize=(11, 3.5), sharey=True, layout="constrained"
     )
     for axis, sweep in zip(axes, SWEEPS, strict=True):
         for law, style in zip(LAWS, ("C0:", "C1--", "C2-.", "k-"), strict=True):
@@ -95,7 +95,7 @@ def picture(rows: list[dict[str, float | str]], path: Path) -> None:
         axis.set_xlabel(sweep.replace("slosh_frequency", "slosh_frequency, rad/s"), fontsize=9)
         axis.grid(alpha=0.3)
     axes[0].set_ylabel("distance from -1; 0: unstable")
-    axes[0].legend(fontsize=8)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(LAWS))
     figure.savefig(path, dpi=110)
     plt.close(figure)
 

@@ -1,5 +1,6 @@
 //! The files of the FMI cross-check: inputs, options and what comes out, for whoever imports the FMU.
 
+use super::Files;
 use crate::describe::MODEL_IDENTIFIER;
 use crate::fly::{apply, communication_points, positive};
 use crate::fmu::Fmu;
@@ -9,15 +10,17 @@ use crate::model_description::Causality;
 use crate::record::Record;
 use crate::workspace::{read, root};
 use anyhow::{Result, bail};
-use std::collections::BTreeMap;
-use std::path::Path;
+
+/// Where a file of the set is in the FMU.
+pub fn path(ending: &str) -> String {
+    format!("documentation/cross-check/{MODEL_IDENTIFIER}_{ending}")
+}
 
 /// Flies the example's doublet with an FMU; files by their names.
 ///
 /// The input file is the example itself: it has a row just before each jump, so a tool that
 /// interpolates flies the same as one that holds a value.
-pub fn fly_reference(fmu: &Path) -> Result<BTreeMap<String, Vec<u8>>> {
-    let fmu = Fmu::open(fmu)?;
+pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let (model, default) = (&fmu.model, &fmu.model.experiment);
     let step = positive("step size", default.step_size)?;
     let stop = positive("stop time", default.stop_time)?;
@@ -25,7 +28,7 @@ pub fn fly_reference(fmu: &Path) -> Result<BTreeMap<String, Vec<u8>>> {
     let input = root().join("examples/elevator_doublet.csv");
     let manoeuvre = Manoeuvre::read(&input, model)?;
 
-    let mut instance = Instance::new(&fmu)?;
+    let mut instance = Instance::new(fmu)?;
     instance.set_up(0.0, stop, tolerance)?;
     apply(&mut instance, &manoeuvre, 0.0)?;
     instance.initialise()?;
@@ -54,9 +57,9 @@ pub fn fly_reference(fmu: &Path) -> Result<BTreeMap<String, Vec<u8>>> {
 
     let options =
         format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{step:?}\nRelTol,{tolerance:?}\n");
-    Ok(BTreeMap::from([
-        (format!("{MODEL_IDENTIFIER}_in.csv"), read(&input)?),
-        (format!("{MODEL_IDENTIFIER}_ref.csv"), record.csv()?.into_bytes()),
-        (format!("{MODEL_IDENTIFIER}_ref.opt"), options.into_bytes()),
+    Ok(Files::from([
+        (path("in.csv"), read(&input)?),
+        (path("ref.csv"), record.csv()?.into_bytes()),
+        (path("ref.opt"), options.into_bytes()),
     ]))
 }
