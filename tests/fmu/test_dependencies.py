@@ -16,27 +16,28 @@ import pytest
 
 from harness import (
     AERO_SETS,
+    ALL_DERIVATIVES,
+    ALL_STATES,
     CONFIGURATIONS,
-    DERIVATIVES,
     EVEN_MASS_BEAM,
     INPUTS,
     OUTPUTS,
     RIGID,
     SLOSH_BEAM,
-    STATES,
     Package,
 )
 from oracle import Vehicle
 from oracle_aero import TINY
+from oracle_burn import Burning
 
-KNOWNS = (*STATES, *INPUTS)
+KNOWNS = (*ALL_STATES, *INPUTS)
 # Between 18 and 20 km the temperature is constant: the altitude changes nothing but the density and
 # gravity, and the speed of a given Mach number stays the same to the bit.
 BASE = {
     **{"trim": False, "altitude0": 19000.0, "mach0": 8.0, "gamma0": 0.01, "alpha0": 0.02},
     **{"q0": 0.03, "eta10": 0.05, "eta20": -0.02, "eta30": 0.01, "delta_e": 0.1, "phi": 0.3},
     # In still air the flight-path angle would not matter to the loads.
-    "w_gust": 5.0,
+    **{"w_gust": 5.0, "fuel_burn": True},
 }
 # Which start value moves which state or input, and by how much.
 MOVES = {
@@ -155,18 +156,18 @@ def jacobian(
 ) -> np.ndarray:
     """Slope of every output and rate of the oracle by complex step; NaN where it has none."""
     state, control = x.astype(complex), u.astype(complex)
-    if known < len(STATES):
+    if known < len(ALL_STATES):
         if known < oracle.states:
             state[known] += 1j * TINY
     else:
-        control[known - len(STATES)] += 1j * TINY
+        control[known - len(ALL_STATES)] += 1j * TINY
     active = state[: oracle.states]
-    padded = np.zeros(len(STATES), dtype=complex)
+    padded = np.zeros(len(ALL_STATES), dtype=complex)
     padded[: oracle.states] = oracle.rhs(0.0, active, control)
-    values = dict(zip(DERIVATIVES, padded, strict=True))
+    values = dict(zip(ALL_DERIVATIVES, padded, strict=True))
     full = state.copy()
     full[oracle.states :] = 0.0
-    values |= dict(zip(STATES, full, strict=True))
+    values |= dict(zip(ALL_STATES, full, strict=True))
     found = oracle.outputs(active, control)
     values |= {ours: found[theirs] for ours, theirs in OUTPUTS.items()}
     values |= {"delta_e_effective": control[0], "phi_effective": control[1]}
@@ -178,17 +179,19 @@ def test_verif_dependencies_are_the_sparsity_of_the_equations(
 ) -> None:
     """All states and inputs: the claims are the nonzero pattern of the oracle's derivatives.
 
-    In one coefficient set or another: only one has a plume under the aft-body.
+    In one coefficient set or another: only one has a plume under the aft-body. What the fuel does
+    is seen in that one while it burns.
     """
     names = list(claims)
     generator = np.random.default_rng(7)
     cases = [(configuration, aero) for configuration in CONFIGURATIONS for aero in AERO_SETS]
-    slopes = np.zeros((len(cases), 3, len(names), len(KNOWNS)))
-    for c, (configuration, aero) in enumerate(cases):
-        oracle = vehicle(configuration=configuration, aero=aero)
+    oracles = [vehicle(configuration=configuration, aero=aero) for configuration, aero in cases]
+    oracles.append(Burning(configuration=SLOSH_BEAM, aero="shock_expansion"))
+    slopes = np.zeros((len(oracles), 3, len(names), len(KNOWNS)))
+    for c, oracle in enumerate(oracles):
         trim, control = oracle.trim()
         for point in range(3):
-            x = generator.normal(0.0, 0.01, len(STATES))
+            x = generator.normal(0.0, 0.01, len(ALL_STATES))
             x[: oracle.states] += trim
             u = np.append(control, 5.0) + generator.normal(0.0, 0.02, len(INPUTS))
             for known in range(len(KNOWNS)):
