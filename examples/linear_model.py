@@ -39,7 +39,8 @@ def linear_model(
     fmu.instantiate()
     try:
         for name, value in parameters.items():
-            set_value = fmu.setReal if variables[name].type == "Real" else fmu.setInteger
+            kinds = {"Real": fmu.setReal, "Boolean": fmu.setBoolean}
+            set_value = kinds.get(variables[name].type, fmu.setInteger)
             set_value(references([name]), [value])
         fmu.setupExperiment()
         fmu.enterInitializationMode()

@@ -64,47 +64,47 @@ impl Polynomial {
 /// How one coefficient answers the modal coordinates, flexible modes first, then slosh modes: per
 /// metre of eta, and per metre of eta-dot over V. In pairs, as in the state.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ElasticTerm {
+pub struct ElasticTerm<C = f64> {
     /// d/d eta and d/d(eta-dot/V), 1/m.
-    pub per: [[f64; 2]; MODES],
+    pub per: [[C; 2]; MODES],
 }
 
 /// One number for each mode, flexible modes first, then slosh modes.
-pub type PerMode = [f64; MODES];
+pub type PerMode<C = f64> = [C; MODES];
 
 /// Generalised forces on the modes: aerodynamic terms over qbar S, thrust terms over the thrust; mode
 /// shapes are dimensionless, and both are divided by the modal mass.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct ModalForces {
+pub struct ModalForces<C = f64> {
     /// N^0, N^alpha, N^alpha2: the rigid body's load, as a polynomial in the incidence.
-    pub alpha: [PerMode; 3],
+    pub alpha: [PerMode<C>; 3],
     /// N^delta_e, per rad; the modal force is to this as the elevator's lift to its slope at zero.
-    pub delta_e: PerMode,
+    pub delta_e: PerMode<C>,
     /// Of the lift that the plume adds, C_L,phi phi.
-    pub plume: PerMode,
+    pub plume: PerMode<C>,
     /// By each mode k: N^eta_k, 1/m, and what there is per eta-dot_k/V, 1/m.
-    pub elastic: [[PerMode; 2]; MODES],
+    pub elastic: [[PerMode<C>; 2]; MODES],
     /// Per q/V, m.
-    pub pitch_rate: PerMode,
+    pub pitch_rate: PerMode<C>,
     /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
-    pub thrust_across: PerMode,
+    pub thrust_across: PerMode<C>,
     /// Of the thrust's couple, T z_T, which acts at the nacelle.
-    pub thrust_couple: PerMode,
+    pub thrust_couple: PerMode<C>,
 }
 
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Elastic {
+pub struct Elastic<C = f64> {
     /// C_L^eta.
-    pub lift: ElasticTerm,
+    pub lift: ElasticTerm<C>,
     /// C_D^eta.
-    pub drag: ElasticTerm,
+    pub drag: ElasticTerm<C>,
     /// C_M^eta about the moment centre.
-    pub moment: ElasticTerm,
+    pub moment: ElasticTerm<C>,
     /// Incidence of the engine's inflow, rad.
-    pub inflow: ElasticTerm,
+    pub inflow: ElasticTerm<C>,
     /// N_i.
-    pub force: ModalForces,
+    pub force: ModalForces<C>,
 }
 
 /// A coefficient set, without its elastic terms.

@@ -27,7 +27,7 @@ pub struct Limited {
 
 impl Limited {
     /// Distance to the nearer limit over the width of the range; negative outside.
-    fn margin(&self) -> f64 {
+    pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
         f64::min(self.value - min, max - self.value) / (max - min)
     }

@@ -68,6 +68,15 @@ pub enum Error {
         /// The last valid instant, s.
         time_s: f64,
     },
+    /// The tanks ran empty.
+    #[error(
+        "fuel_mass reached 0 at t = {time_s} s: the fuel ran out, and the thrust of the curve fits \
+         is one with fuel, so the flight ends there; start with a larger fuel_fraction"
+    )]
+    Fuel {
+        /// The last instant with fuel, s.
+        time_s: f64,
+    },
     /// The integrator cannot hold the tolerance.
     #[error("no step holds the tolerance {tolerance:.1e} at t = {time_s} s; raise the tolerance")]
     StepSize {

@@ -10,7 +10,7 @@ pub use inputs::{GUST, INPUT_ORDER, INPUTS, Inputs};
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, Outputs, STATES, State, Vehicle};
+use crate::dynamics::{Control, FUEL, Outputs, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator};
 use crate::parameters::Parameters;
@@ -57,6 +57,9 @@ pub struct Flight {
 fn left(vehicle: &Vehicle, state: &State, gust: f64, time_s: f64) -> Error {
     let met = Vehicle::as_met(state, gust);
     let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, &met);
+    if vehicle.burn.is_some() && state[FUEL] <= tightest.margin() * vehicle.fuel {
+        return Error::Fuel { time_s };
+    }
     let [min, max] = tightest.limits;
     Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
@@ -141,16 +144,15 @@ impl Flight {
         self.sample = None;
     }
 
-    /// Whether the curve fits hold here.
+    /// Whether the curve fits hold here, with fuel if it burns.
     ///
     /// # Errors
-    /// [`Error::Envelope`] if they do not; those of [`Flight::initialise`].
+    /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::initialise`].
     pub fn check(&mut self) -> Result<(), Error> {
         self.initialise()?;
         let gust = self.inputs.values[GUST];
-        let met = Vehicle::as_met(&self.state, gust);
         match self.vehicle() {
-            Some(vehicle) if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &met) => {
+            Some(vehicle) if !vehicle.holds(&self.state, gust) => {
                 Err(left(vehicle, &self.state, gust, self.time))
             }
             _ => Ok(()),
@@ -209,8 +211,8 @@ impl Flight {
     /// for this step.
     ///
     /// # Errors
-    /// [`Error::Envelope`] on leaving the region where the curve fits hold: time and state are then
-    /// those of the last valid instant. [`Error::StepSize`] if the tolerance cannot be held.
+    /// [`Error::Envelope`] on leaving the region where the curve fits hold, [`Error::Fuel`] when the
+    /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if the tolerance cannot be held.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
         let Self { ready, state, data, parameters, inputs, .. } = self;
         let ready = Ready::of(ready, state, data, parameters)?;

@@ -13,6 +13,7 @@
 //! | [`gas`] | shocks, expansions, heat addition, ducts | NACA Report 1135 |
 //! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
+//! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
 //! | [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
@@ -29,6 +30,7 @@ pub mod aero;
 pub mod aeroelastic;
 pub mod atmosphere;
 pub mod beam;
+pub mod burn;
 pub mod dop853;
 pub mod dynamics;
 pub mod envelope;
@@ -39,6 +41,7 @@ pub mod flight;
 pub mod fmi;
 pub mod gas;
 pub mod hermite;
+pub mod intake;
 pub mod integrate;
 pub mod linear;
 pub mod modes;

@@ -7,6 +7,7 @@
 
 mod jacobi;
 mod krylov;
+mod turn;
 
 use crate::beam::{Beam, Oscillator};
 use crate::error::Error;
@@ -38,6 +39,9 @@ pub struct Modes {
     pub beam_energy_share: [f64; MODES],
     /// Deflection and slope of the beam, one entry per mode.
     pub shape: Vec<Shape>,
+    /// The shapes out of the eigenmodes, `[eigenmode][shape]`, each with modal mass 1: the identity
+    /// but for [`Modes::turned`]. Frequencies and energies are those of the eigenmodes.
+    pub rotation: [[f64; MODES]; MODES],
 }
 
 impl Modes {
@@ -91,6 +95,7 @@ impl Modes {
         let springs: f64 =
             structure.oscillators.iter().zip(relative).map(|(o, r)| o.stiffness * r * r).sum();
         self.omega_rad_per_s[i] = omega2.sqrt();
+        self.rotation[i][i] = 1.0;
         self.modal_mass[i] = 1.0 / (unit * unit);
         for (row, relative) in self.slosh_displacement.iter_mut().zip(relative) {
             row[i] = relative / unit;
@@ -101,18 +106,27 @@ impl Modes {
         self.shape.push(Shape::scaled(nodal, 1.0 / unit));
     }
 
-    /// Modal damping matrix D of `eta'' + D eta' + omega^2 eta = N / mu`, 1/s.
+    /// Modal stiffness matrix K of `eta'' + D eta' + K eta = N / mu`, 1/s^2.
+    pub fn stiffness(&self) -> [[f64; MODES]; MODES] {
+        self.in_shapes(&self.omega_rad_per_s.map(|omega| omega * omega))
+    }
+
+    /// Modal damping matrix D of `eta'' + D eta' + K eta = N / mu`, 1/s.
     ///
-    /// `D_ik = (1/mu_i) sum_j c_j rel_ji rel_jk + delta_ik 2 zeta omega_i e_i`: the dampers of the
-    /// sloshing masses couple the modes; the structure, with a damping ratio for each flexible mode,
-    /// damps each mode by the share `e_i` of its strain energy that is in the beam. A slosh mode
-    /// bends the beam as a slow load does, so it takes the ratio of the first flexible mode.
+    /// Of eigenmodes, `D_ik = (1/mu_i) sum_j c_j rel_ji rel_jk + delta_ik 2 zeta omega_i e_i`: the
+    /// dampers of the sloshing masses couple the modes; the structure, with a damping ratio for each
+    /// flexible mode, damps each mode by the share `e_i` of its strain energy that is in the beam. A
+    /// slosh mode bends the beam as a slow load does, so it takes the ratio of the first flexible mode.
     pub fn damping(
         &self,
         oscillators: &[Oscillator],
         structural_ratio: &[f64; FLEXIBLE],
     ) -> [[f64; MODES]; MODES] {
-        let mut damping = [[0.0; MODES]; MODES];
+        let structural = std::array::from_fn(|i| {
+            let ratio = structural_ratio.get(i).unwrap_or(&structural_ratio[0]);
+            2.0 * ratio * self.omega_rad_per_s[i] * self.beam_energy_share[i]
+        });
+        let mut damping = self.in_shapes(&structural);
         for (i, row) in damping.iter_mut().enumerate().take(self.count) {
             for (k, entry) in row.iter_mut().enumerate().take(self.count) {
                 let power: f64 = oscillators
@@ -120,11 +134,22 @@ impl Modes {
                     .zip(&self.slosh_displacement)
                     .map(|(oscillator, relative)| oscillator.damping * relative[i] * relative[k])
                     .sum();
-                *entry = power / self.modal_mass[i];
+                *entry += power / self.modal_mass[i];
             }
-            let ratio = structural_ratio.get(i).unwrap_or(&structural_ratio[0]);
-            row[i] += 2.0 * ratio * self.omega_rad_per_s[i] * self.beam_energy_share[i];
         }
         damping
+    }
+
+    /// The matrix that is this diagonal in the eigenmodes.
+    fn in_shapes(&self, diagonal: &[f64; MODES]) -> [[f64; MODES]; MODES] {
+        let mut matrix = [[0.0; MODES]; MODES];
+        for (i, row) in matrix.iter_mut().enumerate().take(self.count) {
+            for (k, entry) in row.iter_mut().enumerate().take(self.count) {
+                let parts = self.rotation.iter().zip(diagonal);
+                let sum: f64 = parts.map(|(turn, value)| value * turn[i] * turn[k]).sum();
+                *entry = sum * (self.modal_mass[k] / self.modal_mass[i]).sqrt();
+            }
+        }
+        matrix
     }
 }

@@ -39,6 +39,7 @@ impl Parameters {
                 configuration: Configuration::SloshBeam,
                 aero: if data.own.is_some() { AeroSet::Own } else { AeroSet::Xu2015 },
                 fuel_fraction: default.fuel_fraction.value,
+                fuel_burn: false,
                 slosh_damping: default.slosh_damping.value,
                 slosh_frequency: default.slosh_frequency_rad_per_s.value,
                 condition: Condition {

@@ -6,9 +6,18 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+/// A number that coefficients of type `C` can be applied to: plain ones, or its own kind.
+pub trait Over<C>: Mul<C, Output = Self> {
+    /// A coefficient as such a number.
+    fn of(coefficient: C) -> Self;
+}
+
 /// What the equations ask of a number.
 pub trait Scalar:
     Copy
+    + Default
+    + Over<f64>
+    + Over<Self>
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -22,6 +31,8 @@ pub trait Scalar:
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
     fn value(self) -> f64;
+    /// A function of this number, by its value and its slope here.
+    fn chain(self, value: f64, slope: f64) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
     /// Exponential function.
@@ -36,6 +47,13 @@ pub trait Scalar:
     fn is_zero(self) -> bool;
 }
 
+impl Over<f64> for f64 {
+    #[inline]
+    fn of(coefficient: f64) -> Self {
+        coefficient
+    }
+}
+
 impl Scalar for f64 {
     #[inline]
     fn constant(value: f64) -> Self {
@@ -44,6 +62,10 @@ impl Scalar for f64 {
     #[inline]
     fn value(self) -> f64 {
         self
+    }
+    #[inline]
+    fn chain(self, value: f64, _: f64) -> Self {
+        value
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
@@ -86,12 +108,6 @@ impl<const N: usize> Dual<N> {
         let mut eps = [0.0; N];
         eps[direction] = 1.0;
         Self { re: value, eps }
-    }
-
-    /// Chain rule: value `re`, outer derivative `slope`.
-    #[inline]
-    fn chain(self, re: f64, slope: f64) -> Self {
-        Self { re, eps: self.eps.map(|e| slope * e) }
     }
 
     #[inline]
@@ -157,12 +173,34 @@ impl<const N: usize> Mul<f64> for Dual<N> {
     }
 }
 
+impl<const N: usize> Default for Dual<N> {
+    fn default() -> Self {
+        Self { re: 0.0, eps: [0.0; N] }
+    }
+}
+
+impl<const N: usize> Over<f64> for Dual<N> {
+    fn of(coefficient: f64) -> Self {
+        Self::constant(coefficient)
+    }
+}
+
+impl<const N: usize> Over<Self> for Dual<N> {
+    fn of(coefficient: Self) -> Self {
+        coefficient
+    }
+}
+
 impl<const N: usize> Scalar for Dual<N> {
     fn constant(value: f64) -> Self {
         Self { re: value, eps: [0.0; N] }
     }
     fn value(self) -> f64 {
         self.re
+    }
+    #[inline]
+    fn chain(self, re: f64, slope: f64) -> Self {
+        Self { re, eps: self.eps.map(|e| slope * e) }
     }
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = libm::sincos(self.re);

@@ -49,6 +49,13 @@ pub fn propellant_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
     data.mass.propellant_fraction.value * full_mass_kg_per_m(data) * filling(data, fuel_fraction)
 }
 
+/// Fuel per metre of width, kg/m: what of the propellant can be drained.
+pub fn fuel_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
+    let drainable = 1.0 - data.mass.residual_fraction.value;
+    let load = data.mass.propellant_fraction.value * full_mass_kg_per_m(data);
+    load * drainable * fuel_fraction
+}
+
 /// Slowest frequency that can be asked for, rad/s. A slower spring is so soft that what the kept
 /// modes leave of the static loads moves the liquid by metres.
 pub const SLOWEST_RAD_PER_S: f64 = 0.1;

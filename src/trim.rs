@@ -1,7 +1,7 @@
 //! Trim: the controls and static deflections of steady flight.
 
 use crate::atmosphere::Atmosphere;
-use crate::dynamics::{CONTROLS, Control, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{CONTROLS, Control, FUEL, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::modes::MODES;
 use crate::scalar::{Dual, Scalar};
@@ -95,7 +95,8 @@ fn residual(
 /// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
 /// of actuators and curve fits holds the condition.
 pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
-    let start = condition.start(&vehicle.atmosphere);
+    let mut start = condition.start(&vehicle.atmosphere);
+    start[FUEL] = vehicle.fuel;
     let mut z = Vector::zeros();
     let mut best = f64::INFINITY;
     let mut solution = z;

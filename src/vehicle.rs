@@ -4,15 +4,18 @@ use crate::aero::Aero;
 use crate::aeroelastic::{Strips, derive};
 use crate::atmosphere::Atmosphere;
 use crate::beam::{Beam, MassProperties, Oscillator};
-use crate::dynamics::Vehicle;
+use crate::burn::Burn;
+use crate::dynamics::{Airframe, Vehicle};
 use crate::error::Error;
-use crate::modes::Modes;
+use crate::intake::Intake;
+use crate::modes::{MODES, Modes};
 use crate::params::{
     AeroData, DataFile, EARTH, EarthData, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData,
     XU2015,
 };
-use crate::slosh::{SloshSettings, SloshingTank};
+use crate::slosh::{SloshSettings, SloshingTank, fuel_kg_per_m};
 use crate::trim::Condition;
+use std::sync::Arc;
 
 /// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,8 +48,10 @@ pub struct Build {
     pub configuration: Configuration,
     /// Coefficient set.
     pub aero: AeroSet,
-    /// Propellant left, 0 to 1.
+    /// Propellant at the start, 0 to 1.
     pub fuel_fraction: f64,
+    /// Whether it burns in flight.
+    pub fuel_burn: bool,
     /// Damping ratio of the sloshing masses.
     pub slosh_damping: f64,
     /// Sloshing frequency, rad/s; 0 takes the geometry of the tanks.
@@ -166,6 +171,53 @@ impl Body {
         let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
         Ok(Self { beam, oscillators, modes, strips, properties, inertia_left })
     }
+
+    /// The same body, its modes in the basis nearest to those of another fuel level.
+    ///
+    /// # Errors
+    /// Those of [`Modes::turned`].
+    pub fn turned(mut self, data: &Data, reference: &Self) -> Result<Self, Error> {
+        let reference = (&reference.modes, &reference.oscillators[..]);
+        self.modes = self.modes.turned(&self.beam, &self.oscillators, reference)?;
+        self.strips = Strips::new(&self.beam, &self.modes, &data.vehicle.geometry);
+        Ok(self)
+    }
+
+    /// Displacement of the beam and of each sloshing mass, for each mode.
+    pub fn displacements(&self) -> Vec<Vec<f64>> {
+        self.modes.displacements(&self.oscillators)
+    }
+
+    /// `phi_i^T M v_k / mu_i` of the modes phi and of any displacements v.
+    pub fn products(&self, displacements: &[Vec<f64>]) -> [[f64; MODES]; MODES] {
+        self.modes.products(&self.beam, &self.oscillators, displacements)
+    }
+
+    /// What the equations of flight need of it, with a coefficient set around it.
+    ///
+    /// The set's inertia is that of the full vehicle; with less propellant it falls as the beam's
+    /// own inertia does.
+    pub fn airframe(&self, data: &Data, build: &Build, set: &AeroData) -> Airframe {
+        let Self { beam, oscillators, modes, strips, properties, inertia_left } = self;
+        // A force m g up on each sloshing mass and down on its tank.
+        let gravity = effective_gravity(data, &build.condition);
+        let floor = std::array::from_fn(|i| {
+            let weights = oscillators.iter().zip(&modes.slosh_displacement);
+            let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
+            if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
+        });
+        Airframe {
+            mass: properties.mass,
+            inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
+            mass_centre: properties.centre_m,
+            elastic: derive(&Aero::new(set), beam, modes, strips, properties.centre_m),
+            stiffness: modes.stiffness(),
+            damping: modes.damping(oscillators, &set.inertia.structural_damping.value),
+            floor,
+            slosh: modes.slosh_displacement,
+            turning: Default::default(),
+        }
+    }
 }
 
 impl Vehicle {
@@ -174,36 +226,22 @@ impl Vehicle {
     /// # Errors
     /// [`Error`] if the tanks give no frequency or the modes cannot be found.
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        let body = Body::new(data, build)?;
-        Ok(Self::with_body(data, build, &body, data.aero(build.aero)))
+        let (body, set) = (Body::new(data, build)?, data.aero(build.aero));
+        let burn = build.fuel_burn.then(|| Burn::new(data, build, &body, set)).transpose()?;
+        Ok(Self { burn: burn.map(Arc::new), ..Self::with_body(data, build, &body, set) })
     }
 
-    /// The vehicle of a build with any coefficient set around its body.
-    ///
-    /// The set's inertia is that of the full vehicle; with less propellant it falls as the beam's
-    /// own inertia does.
+    /// The vehicle of a build with any coefficient set around its body; its fuel does not burn.
     pub fn with_body(data: &Data, build: &Build, body: &Body, set: &AeroData) -> Self {
-        let Body { beam, oscillators, modes, strips, properties, inertia_left } = body;
-        let aero = Aero::new(set);
-        // A force m g up on each sloshing mass and down on its tank.
-        let gravity = effective_gravity(data, &build.condition);
-        let floor = std::array::from_fn(|i| {
-            let weights = oscillators.iter().zip(&modes.slosh_displacement);
-            let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
-            if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
-        });
         Self {
             atmosphere: Atmosphere::new(&data.earth),
-            aero,
-            elastic: derive(&aero, beam, modes, strips, properties.centre_m),
-            mass: properties.mass,
-            inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
-            mass_centre: properties.centre_m,
-            modes: modes.count,
-            omega: modes.omega_rad_per_s,
-            damping: modes.damping(oscillators, &set.inertia.structural_damping.value),
-            floor,
-            slosh: modes.slosh_displacement,
+            aero: Aero::new(set),
+            modes: body.modes.count,
+            fuel: fuel_kg_per_m(&data.vehicle, build.fuel_fraction),
+            omega: body.modes.omega_rad_per_s,
+            airframe: body.airframe(data, build, set),
+            burn: None,
+            intake: Intake::new(&data.vehicle, &data.earth),
             limits: [
                 data.vehicle.actuation.delta_e_limit_rad.value,
                 data.vehicle.actuation.phi_limit.value,

@@ -157,7 +157,7 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
     assert_eq!(set_states(&slave, &wild), Status::Error);
     assert!(slave.message().message.contains("q = NaN"));
     assert_eq!(set_states(&slave, &good[1..]), Status::Error);
-    assert!(slave.message().message.contains("nx = 14"));
+    assert!(slave.message().message.contains("nx = 15"));
     // SAFETY: a live instance.
     assert_eq!(unsafe { (api.set_time)(slave.c, f64::INFINITY) }, Status::Error);
     assert!(slave.message().message.contains("time = inf"));

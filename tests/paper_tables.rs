@@ -65,12 +65,12 @@ fn paper_table2_rigid_short_period_asks_for_an_inertia_that_is_not_printed() {
         let real = real_parts(&linear(vehicle).poles());
         [real[0], real[real.len() - 1]]
     };
-    vehicle.inertia = INERTIA_OF_THE_POLES;
+    vehicle.airframe.inertia = INERTIA_OF_THE_POLES;
     let found = short_period(&vehicle);
     assert_close("unstable pole", found[0], printed[0], RIGID_VEHICLE);
     assert_close("stable pole", found[1], printed[1], RIGID_VEHICLE);
     for inertia in [2.224e5, data().parker2007.inertia.i_yy_kg_m2_per_m.value] {
-        vehicle.inertia = inertia;
+        vehicle.airframe.inertia = inertia;
         assert!(deviation(short_period(&vehicle)[0], printed[0], 1.0) > 0.4, "{inertia}");
     }
 }
@@ -82,7 +82,7 @@ fn paper_table3_rigid_zeros_cannot_be_unequal() {
     // is the pair's size for the inertia above.
     let printed = floats(&published()["table3"]["rigid"]["real"]);
     let mut vehicle = vehicle_with(Parker2007, Configuration::Rigid);
-    vehicle.inertia = INERTIA_OF_THE_POLES;
+    vehicle.airframe.inertia = INERTIA_OF_THE_POLES;
     let zeros = real_parts(&linear(&vehicle).zeros());
     assert_eq!(zeros.len(), 3);
     assert!((zeros[0] + zeros[2]).abs() < 1e-12 * zeros[0]);
@@ -248,13 +248,13 @@ fn paper_published_trim_closes_lift_but_not_moment() {
     // thrust and drag differ by 7 %, and a moment remains, so the digits are not of these fits.
     let vehicle = vehicle_with(Parker2007, Configuration::Rigid);
     let radians = std::f64::consts::PI / 180.0;
-    let mut x = [0.0; 15];
+    let mut x = [0.0; ahv::dynamics::STATES];
     x[0] = 7702.08 * 0.3048;
     x[1] = 85_000.0 * 0.3048;
     x[3] = 1.5153 * radians;
     let loads = vehicle.loads(&x, &[11.4635 * radians, 0.2514]);
     let (gravity, distance) = vehicle.atmosphere.gravity(x[1]);
-    let weight = vehicle.mass * (gravity - x[0] * x[0] / distance);
+    let weight = vehicle.airframe.mass * (gravity - x[0] * x[0] / distance);
     let up = loads.lift + loads.thrust * x[3].sin();
     assert_close("lift", up, weight, 1e-2);
     let imbalance = loads.thrust * x[3].cos() / loads.drag - 1.0;

@@ -145,7 +145,8 @@ fn verif_the_air_damps_every_mode() {
         let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
         let n = vehicle.modes;
         let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
-            let entry = |i: usize, k: usize| vehicle.elastic.force.elastic[k][1][i] * mass[i];
+            let entry =
+                |i: usize, k: usize| vehicle.airframe.elastic.force.elastic[k][1][i] * mass[i];
             0.5 * (entry(i, k) + entry(k, i))
         });
         let eigenvalues = damping.symmetric_eigenvalues();
@@ -180,7 +181,13 @@ fn verif_the_full_build_scales_inertia_with_fuel() {
     let build = ahv::vehicle::Build { fuel_fraction: 0.0, ..build(Configuration::SloshBeam) };
     let empty = ahv::dynamics::Vehicle::new(&data(), &build).unwrap();
     let dry = 1.0 - data().vehicle.mass.propellant_fraction.value;
-    assert!(empty.mass < 0.36 * full.mass && empty.mass > dry * full.mass);
-    assert!(empty.inertia < 0.6 * full.inertia && empty.inertia > 0.3 * full.inertia);
-    assert_eq!(full.inertia, data().xu2015.inertia.i_yy_kg_m2_per_m.value);
+    assert!(
+        empty.airframe.mass < 0.36 * full.airframe.mass
+            && empty.airframe.mass > dry * full.airframe.mass
+    );
+    assert!(
+        empty.airframe.inertia < 0.6 * full.airframe.inertia
+            && empty.airframe.inertia > 0.3 * full.airframe.inertia
+    );
+    assert_eq!(full.airframe.inertia, data().xu2015.inertia.i_yy_kg_m2_per_m.value);
 }

@@ -33,6 +33,9 @@ fn values(base: &Snapshot, known: usize, size: f64) -> Vec<f64> {
 fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
     let mut flight = model::flight(configuration);
     flight.change(|p| p.build.aero = set);
+    // The fuel matters only while it burns.
+    let burns = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
+    flight.change(|p| p.build.fuel_burn = burns);
     flight.initialise().unwrap();
     let states = flight.vehicle().unwrap().states();
     let mut snapshot = flight.snapshot();

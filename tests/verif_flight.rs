@@ -83,7 +83,7 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, cases: 64, ..ProptestConfig::default() })]
 
     #[test]
-    fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform15(-1.0..1.0_f64)) {
+    fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform16(-1.0..1.0_f64)) {
         // alpha' + gamma' = q: the sign missing in the printed eq. (3).
         for build in builds() {
             let vehicle = Vehicle::new(&data(), &build).unwrap();
@@ -95,7 +95,7 @@ proptest! {
     }
 
     #[test]
-    fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform15(-1.0..1.0_f64)) {
+    fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform16(-1.0..1.0_f64)) {
         for build in builds() {
             let vehicle = Vehicle::new(&data(), &build).unwrap();
             let (x, u) = (disturbed(&vehicle, scale), [0.1, 0.3]);

@@ -171,7 +171,7 @@ fn verif_level_flight_exists_near_mach_8() {
     let atmosphere = Atmosphere::new(&data().earth);
     let (gravity, distance) = atmosphere.gravity(25_900.0);
     let speed = model.medium.speed(&stream);
-    let weight = model::vehicle(ahv::vehicle::Configuration::Rigid).mass
+    let weight = model::vehicle(ahv::vehicle::Configuration::Rigid).airframe.mass
         * (gravity - speed * speed / distance);
     let centre = data().parker2007.reference.moment_centre_m.value;
     let arm = model.moment_height - model.thrust_height();

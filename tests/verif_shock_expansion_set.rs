@@ -98,14 +98,14 @@ fn verif_strips_stand_for_panels_within_the_stated_bound() {
         let (beam, oscillators) = structure(&data(), &own_build(configuration)).unwrap();
         let modes = Modes::solve(&beam, &oscillators).unwrap();
         let direct = model.elastic(&ahead, &attitude, &vehicle.aero, &beam, &modes).unwrap();
-        let found = deviation(&vehicle.elastic, &direct, FLEXIBLE);
+        let found = deviation(&vehicle.airframe.elastic, &direct, FLEXIBLE);
         for (name, value) in COMPARED.into_iter().zip(found) {
             assert!(value < STRIPS, "{configuration:?}, {name}: {value}");
         }
         // What damps or drives each mode by itself has the same sign and size.
         for i in 0..FLEXIBLE {
             let [strip, panel] =
-                [&vehicle.elastic, &direct].map(|elastic| elastic.force.elastic[i][1][i]);
+                [&vehicle.airframe.elastic, &direct].map(|elastic| elastic.force.elastic[i][1][i]);
             assert!(strip < 0.0 && panel < 0.0, "{configuration:?}, mode {i}");
             assert_close("damping", strip, panel, STRIPS);
         }

@@ -170,6 +170,8 @@ fn quantity(unit: Unit) -> Option<&'static str> {
         ("rad/s2", _) => "AngularAcceleration",
         ("N/m", _) => "ForcePerWidth",
         ("N", _) => "MomentPerWidth",
+        ("kg/m", _) => "MassPerWidth",
+        ("kg/(m.s)", _) => "MassFlowPerWidth",
         ("Pa", _) => "Pressure",
         _ => return None,
     })

@@ -167,7 +167,7 @@ fn compare(data: &Data, attitude: &Attitude) -> Result<Vec<Vec<String>>> {
         let condition = &build.condition;
         let ahead = model.medium.ahead(&vehicle.atmosphere, condition.mach, condition.altitude);
         let direct = model.elastic(&ahead, attitude, &vehicle.aero, &beam, &modes)?;
-        let found = elastic::deviation(&vehicle.elastic, &direct, FLEXIBLE);
+        let found = elastic::deviation(&vehicle.airframe.elastic, &direct, FLEXIBLE);
         for (row, value) in rows.iter_mut().zip(found) {
             row.push(format!("{:.0} %", 100.0 * value));
         }

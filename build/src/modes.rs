@@ -68,7 +68,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;
-    let ratio = |i: usize| vehicle.damping[i][i] / (2.0 * omega[i]);
+    let ratio = |i: usize| vehicle.airframe.damping[i][i] / (2.0 * omega[i]);
     let slosh = |i: usize| modes.slosh_displacement.map(|tank| tank[i]);
     if options.json {
         let list: Vec<_> = (0..count)
@@ -78,7 +78,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
                     "omega_rad_per_s": omega[i],
                     "modal_mass_kg_per_m": modes.modal_mass[i],
                     "damping_ratio": ratio(i),
-                    "damping_per_s": &vehicle.damping[i][..count],
+                    "damping_per_s": &vehicle.airframe.damping[i][..count],
                     "slosh_displacement": slosh(i),
                     "beam_energy_share": modes.beam_energy_share[i],
                 })
@@ -115,7 +115,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
     println!("\nDamping matrix, 1/s");
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {
-        let cells = vehicle.damping[i][..count].iter().map(|value| number(*value));
+        let cells = vehicle.airframe.damping[i][..count].iter().map(|value| number(*value));
         rows.push(std::iter::once(name(i)).chain(cells).collect());
     }
     print!("{}", table(&rows));

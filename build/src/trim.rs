@@ -62,7 +62,7 @@ pub fn run(options: &Analyse) -> Result<()> {
         ("alpha", alpha, "rad", degrees),
         ("delta_e", delta_e, "rad", degrees),
         ("phi", phi, "1", ("1", 1.0)),
-        ("weight", vehicle.mass * gravity, "N/m", ("kN/m", 1e-3)),
+        ("weight", vehicle.airframe.mass * gravity, "N/m", ("kN/m", 1e-3)),
         ("lift", loads.lift, "N/m", ("kN/m", 1e-3)),
         ("drag", loads.drag, "N/m", ("kN/m", 1e-3)),
         ("thrust", loads.thrust, "N/m", ("kN/m", 1e-3)),

@@ -46,8 +46,8 @@ class Vehicle:
         self._fmu.instantiate(callbacks=callbacks)
         try:
             for name, value in parameters.items():
-                real = self.variables[name].type == "Real"
-                call = self._fmu.setReal if real else self._fmu.setInteger
+                kinds = {"Real": self._fmu.setReal, "Boolean": self._fmu.setBoolean}
+                call = kinds.get(self.variables[name].type, self._fmu.setInteger)
                 call([self.variables[name].valueReference], [value])
             self._fmu.setupExperiment()
             self._fmu.enterInitializationMode()

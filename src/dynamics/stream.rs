@@ -42,4 +42,10 @@ impl Vehicle {
     pub fn as_met(x: &State, gust: f64) -> State {
         Stream::new(x, gust).state
     }
+
+    /// Whether the curve fits hold at a state in air rising at `gust` (m/s), with fuel if it burns.
+    pub fn holds(&self, x: &State, gust: f64) -> bool {
+        let met = Self::as_met(x, gust);
+        self.aero.envelope.holds(&self.atmosphere, &met) && !self.out_of_fuel(x)
+    }
 }

@@ -1,6 +1,6 @@
 //! What the parameters alone decide: vehicle, trim, and what the inputs are added to.
 
-use crate::dynamics::{Control, RIGID, State, Vehicle};
+use crate::dynamics::{Control, FUEL, RIGID, State, Vehicle};
 use crate::error::Error;
 use crate::parameters::{InputMode, Parameters};
 use crate::trim::{Trim, trim};
@@ -24,6 +24,7 @@ impl Ready {
             trim(&vehicle, &build.condition)?
         } else {
             let mut state = build.condition.start(&vehicle.atmosphere);
+            state[FUEL] = vehicle.fuel;
             state[3] = alpha0;
             state[4] = q0;
             for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {

@@ -39,7 +39,7 @@ impl System<STATES> for Steered<'_> {
     }
     fn holds(&self, t: f64, x: &State) -> bool {
         let (_, gust) = self.at(t);
-        self.vehicle.aero.envelope.holds(&self.vehicle.atmosphere, &Vehicle::as_met(x, gust))
+        self.vehicle.holds(x, gust)
     }
     fn nominal(&self) -> &State {
         &NOMINAL

@@ -41,7 +41,7 @@ impl Instance {
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         match self.flight.check() {
             Ok(()) => Ok(false),
-            Err(error @ Error::Envelope { .. }) => {
+            Err(error @ (Error::Envelope { .. } | Error::Fuel { .. })) => {
                 self.life.ended = true;
                 self.log.push(Status::Discard, || format!("fmi2CompletedIntegratorStep: {error}"));
                 Ok(true)

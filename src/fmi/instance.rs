@@ -227,7 +227,7 @@ impl Instance {
             // A part of the step was flown, so the status is discard. The integrator chose its own
             // steps down to the last valid instant: a shorter communication step gets no further,
             // so the instance asks for the end of the simulation in both cases.
-            Err(error @ (Error::Envelope { .. } | Error::StepSize { .. })) => {
+            Err(error @ (Error::Envelope { .. } | Error::Fuel { .. } | Error::StepSize { .. })) => {
                 self.life.phase = Phase::StepFailed;
                 self.life.ended = true;
                 Err(Failure::Incomplete(error))

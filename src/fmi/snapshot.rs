@@ -23,7 +23,7 @@ use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::variables::{MODEL_HASH, TABLE, Variable};
 
 const MAGIC: [u8; 8] = *b"AHVSTATE";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const HEADER: usize = 8 + 4 + 4 + 16;
 const CHECKSUM: usize = 8;
 /// Stop time, time, tolerance, step proposal.

@@ -52,7 +52,7 @@ impl Structure<'_> {
         self.beam.unknowns() + self.oscillators.len()
     }
 
-    fn mass_times(&self, displacement: &[f64]) -> Vec<f64> {
+    pub(super) fn mass_times(&self, displacement: &[f64]) -> Vec<f64> {
         let beam = self.beam.unknowns();
         let mut product = vec![0.0; self.unknowns()];
         self.beam.mass_times(&displacement[..beam], &mut product[..beam]);
@@ -236,7 +236,7 @@ fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) 
 }
 
 /// In eight running sums: quicker, more accurate, and the same on every platform.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (a, a_rest) = a.as_chunks::<8>();
     let (b, b_rest) = b.as_chunks::<8>();

@@ -26,6 +26,8 @@ const ANGULAR_ACCELERATION: Unit = unit("rad/s2", [0, 0, -2, 1]);
 const FREQUENCY: Unit = unit("rad/s", [0, 0, -1, 1]);
 const FORCE_PER_WIDTH: Unit = unit("N/m", [1, 0, -2, 0]);
 const MOMENT_PER_WIDTH: Unit = unit("N", [1, 1, -2, 0]);
+const MASS_PER_WIDTH: Unit = unit("kg/m", [1, -1, 0, 0]);
+const MASS_FLOW_PER_WIDTH: Unit = unit("kg/(m.s)", [1, -1, -1, 0]);
 const PRESSURE: Unit = unit("Pa", [1, -1, -2, 0]);
 
 const NONE: Dependencies = Dependencies { dependent: 0, fixed: 0, constant: 0 };
@@ -48,6 +50,7 @@ const H: u32 = 1 << 1;
 const GAMMA: u32 = 1 << 2;
 const ALPHA: u32 = 1 << 3;
 const Q: u32 = 1 << 4;
+const FUEL: u32 = 1 << 15;
 const DELTA_E: u32 = 1 << STATES;
 const PHI: u32 = 1 << (STATES + 1);
 const GUST: u32 = 1 << (STATES + 2);
@@ -57,7 +60,7 @@ const ELASTIC: u32 = ETAS | RATES;
 /// Speed and incidence relative to moving air.
 const STREAM: u32 = V | GAMMA | ALPHA | GUST;
 /// What the aerodynamic forces depend on; on the fuel through the plume under the aft-body.
-const AERODYNAMIC: u32 = STREAM | H | ELASTIC | DELTA_E | PHI;
+const AERODYNAMIC: u32 = STREAM | H | ELASTIC | DELTA_E | PHI | FUEL;
 
 const ROW: Variable = Variable {
     name: "",
@@ -199,7 +202,7 @@ const INPUT_MODE: Kind = Kind::Enumeration(
 
 /// All variables.
 #[rustfmt::skip]
-pub static TABLE: [Variable; 68] = [
+pub static TABLE: [Variable; 71] = [
     input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
     input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
@@ -211,11 +214,11 @@ pub static TABLE: [Variable; 68] = [
     output_state(3, "alpha", ANGLE, "Angle of attack; in a gust against the flight path", |f| f.state()[3]),
     output_state(4, "q", ANGULAR_RATE, "Pitch rate", |f| f.state()[4]),
     output("theta", ANGLE, "Pitch attitude", constant(GAMMA | ALPHA), |f| shown(f, |s| s.outputs.theta)),
-    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[0])),
-    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", fixed(ETAS), |f| shown(f, |s| s.outputs.slosh[1])),
+    output("slosh1", METRE, "Displacement of the sloshing mass in the fore tank, up positive", dependent(ETAS | FUEL), |f| shown(f, |s| s.outputs.slosh[0])),
+    output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", dependent(ETAS | FUEL), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
-    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(STREAM | H | ELASTIC | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
+    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(STREAM | H | ELASTIC | PHI | FUEL), |f| shown(f, |s| s.outputs.loads.thrust)),
     output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.moment)),
     output("mach", ONE, "Mach number", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.mach)),
     output("qbar", PRESSURE, "Dynamic pressure", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.qbar)),
@@ -268,6 +271,9 @@ pub static TABLE: [Variable; 68] = [
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
     Variable { range: Some([-200.0, 200.0]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
+    output_state(15, "fuel_mass", MASS_PER_WIDTH, "Fuel on board, without what cannot be drained, per metre of width", |f| f.state()[15]),
+    derivative(15, "der(fuel_mass)", MASS_FLOW_PER_WIDTH, dependent(STREAM | H | ELASTIC | PHI | FUEL), |f| rate(f, 15)),
+    parameter("fuel_burn", Kind::Boolean, None, "Fuel burns in flight; false keeps fuel_mass, and with it mass and modes, as they are at the start", |f| f64::from(f.parameters().build.fuel_burn), |f, v| f.change(|p| p.build.fuel_burn = v != 0.0)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {

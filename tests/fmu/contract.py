@@ -38,11 +38,14 @@ CONTRACT = [
     *reals("moment", "output", "continuous", "N"),
     *reals("mach n_z phi_effective", "output", "continuous", "1"),
     *reals("qbar", "output", "continuous", "Pa"),
+    *reals("fuel_mass", "output", "continuous", "kg/m"),
+    *reals("der(fuel_mass)", "local", "continuous", "kg/(m.s)"),
     Entry("q", "output", "continuous", "Real", "rad/s", "deg/s"),
     Entry("configuration", "parameter", "fixed", "Enumeration"),
     Entry("aero", "parameter", "fixed", "Enumeration"),
     Entry("input_mode", "parameter", "fixed", "Enumeration"),
     Entry("trim", "parameter", "fixed", "Boolean"),
+    Entry("fuel_burn", "parameter", "fixed", "Boolean"),
     *reals("fuel_fraction slosh_damping mach0", "parameter", "fixed", "1"),
     *reals("slosh_frequency", "parameter", "fixed", "rad/s"),
     *reals("altitude0 eta10 eta20 eta30", "parameter", "fixed", "m"),
@@ -83,6 +86,8 @@ UNITS = {
     "N/m": (1, 0, -2, 0),
     "N": (1, 1, -2, 0),
     "Pa": (1, -1, -2, 0),
+    "kg/m": (1, -1, 0, 0),
+    "kg/(m.s)": (1, -1, -1, 0),
 }
 
 # A value keeps its number for ever; one that does not exist yet is not offered.
@@ -96,6 +101,6 @@ COMPLETE = ("configuration", "input_mode")
 START = {
     **{"delta_e": 0.0, "phi": 0.0, "configuration": 3, "aero": 1, "input_mode": 1, "trim": True},
     **{"w_gust": 0.0, "fuel_fraction": 1.0, "slosh_damping": 0.05, "slosh_frequency": 0.0},
-    **{"mach0": 8.0, "altitude0": 25900.0, "gamma0": 0.0},
+    **{"mach0": 8.0, "altitude0": 25900.0, "gamma0": 0.0, "fuel_burn": False},
 }
 EXPERIMENT = {"startTime": 0.0, "stopTime": 2.0, "stepSize": 0.01, "tolerance": 1e-8}

@@ -38,6 +38,9 @@ STATES = (
     *("eta_slosh1", "eta_slosh1_dot", "eta_slosh2", "eta_slosh2_dot"),
 )
 DERIVATIVES = tuple(f"der({name})" for name in STATES)
+# Last, as fuel that burns moves it.
+FUEL = "fuel_mass"
+ALL_STATES, ALL_DERIVATIVES = (*STATES, FUEL), (*DERIVATIVES, f"der({FUEL})")
 CONTROLS = ("delta_e", "phi")
 INPUTS = (*CONTROLS, "w_gust")
 # Outputs that are no states: our name, the oracle's name.
@@ -45,7 +48,10 @@ OUTPUTS = {
     **{name: name for name in ("theta", "lift", "drag", "thrust", "moment", "mach", "qbar", "n_z")},
     **{"slosh1": "slosh_1", "slosh2": "slosh_2"},
 }
-EVERYTHING = (*STATES, *OUTPUTS, *DERIVATIVES, "delta_e_effective", "phi_effective")
+EVERYTHING = (
+    *(*STATES, *OUTPUTS, *DERIVATIVES, "delta_e_effective", "phi_effective"),
+    *(FUEL, f"der({FUEL})"),
+)
 ACTIVE_STATES = {RIGID: 5, EVEN_MASS_BEAM: 11, SLOSH_BEAM: 15}
 
 

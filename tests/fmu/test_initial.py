@@ -16,6 +16,8 @@ BASES = [
     {"configuration": 2, **UNTRIMMED},
     # The one set in which the fuel changes the lift, and masses that move against their tanks.
     {"configuration": 3, "aero": 3, **UNTRIMMED},
+    # The one vehicle whose fuel flows.
+    {"configuration": 3, "fuel_burn": True},
 ]
 # What has an effect only when the masses move: they start at rest.
 LATER = ("slosh_damping",)
@@ -25,7 +27,7 @@ MOVED = {
     **{"slosh_frequency": 12.0, "mach0": 7.5, "altitude0": 25000.0, "gamma0": 0.01},
     **{"trim": False, "input_mode": 2, "alpha0": 0.03, "q0": 0.05},
     **{"eta10": 0.04, "eta20": 0.03, "eta30": 0.02, "delta_e": 0.05, "phi": 0.2},
-    "w_gust": 4.0,
+    **{"w_gust": 4.0, "fuel_burn": True},
 }
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from harness import (
+    ALL_STATES,
     CONFIGURATIONS,
     DERIVATIVES,
     ERROR,
@@ -119,5 +120,5 @@ def test_what_has_no_derivative_is_refused_by_name(
 def test_example_gives_the_four_matrices(package: Package) -> None:
     model = runpy.run_path(str(ROOT / "examples/linear_model.py"))["linear_model"]
     shown = model(str(package.folder), configuration=SLOSH_BEAM)
-    assert shown.states == list(STATES) and shown.A.shape == (len(STATES), len(STATES))
+    assert shown.states == list(ALL_STATES) and shown.A.shape == (len(ALL_STATES),) * 2
     assert np.array_equal(shown.C.sum(axis=1), [1.0, 1.0]) and not shown.D.any()

@@ -13,7 +13,7 @@ import pytest
 
 from harness import Package
 
-OUTPUTS = 20
+OUTPUTS = 21
 
 
 def test_verif_one_line_flies_level(package: Package) -> None:

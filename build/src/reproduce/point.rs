@@ -86,10 +86,10 @@ fn metric(
     let rigid = super::roots::RIGID_ROWS;
     let sloshing = oscillators.len().min(SLOSH);
     let mut matrix = DMatrix::zeros(rigid + elements + sloshing, vehicle.states());
-    let mass = vehicle.mass.sqrt();
+    let mass = vehicle.airframe.mass.sqrt();
     matrix[(0, 0)] = mass;
     matrix[(1, 2)] = mass * trim.state[0];
-    matrix[(2, 4)] = vehicle.inertia.sqrt();
+    matrix[(2, 4)] = vehicle.airframe.inertia.sqrt();
     for (i, shape) in modes.shape.iter().enumerate() {
         let rate = RIGID + 2 * i + 1;
         for e in 0..elements {

@@ -56,7 +56,7 @@ impl Parameter {
     /// First and last value, and number of intervals.
     pub fn range(self) -> (f64, f64, usize) {
         match self {
-            Self::Fuel => (1.0, 0.0, 80),
+            Self::Fuel => (1.0, 0.0, 400),
             Self::Damping => (0.05, 0.3, 50),
             Self::Frequency => (2.0, 30.0, 140),
         }

@@ -226,7 +226,10 @@ fn beside(table: Table, far: Option<Table>) -> Table {
 
 fn caption(sweep: &Sweep) -> String {
     let held = match sweep.parameter {
-        Parameter::Fuel => "Sloshing frequencies follow from depth and gravity.",
+        Parameter::Fuel => {
+            "Sloshing frequencies follow from depth and gravity. Where those of both tanks meet, the \
+             poles turn aside and exchange damping; the zeros cross (enlarged in (e) and (f))."
+        }
         Parameter::Damping => "Half fuel; sloshing frequencies follow from depth and gravity.",
         Parameter::Frequency => "Half fuel; both tanks at the same frequency.",
     };

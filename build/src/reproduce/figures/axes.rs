@@ -12,6 +12,9 @@ const BOTTOM: u32 = 44;
 const RIGHT: u32 = 16;
 pub const TEXT: u32 = 15;
 const LABELS: usize = 6;
+/// Labels on an axis that is narrower than this at scale one.
+const NARROW: u32 = 200;
+const FEW_LABELS: usize = 3;
 
 /// Title, names and ranges.
 pub struct Axes<'a> {
@@ -79,6 +82,8 @@ impl Axes<'_> {
         let middle = (HEAD * scale / 2) as i32 + 2 * scale as i32;
         head.draw_text(self.title, &left, ((LEFT * scale) as i32, middle))?;
         let [[x0, x1], [y0, y1]] = [self.x, self.y];
+        let narrow = body.dim_in_pixel().0 < (NARROW + LEFT + RIGHT) * scale;
+        let x_labels = if narrow { FEW_LABELS } else { LABELS };
         let mut chart = ChartBuilder::on(&body);
         chart
             .margin_right(RIGHT * scale)
@@ -87,18 +92,19 @@ impl Axes<'_> {
         let (area, x, y) = match kind {
             Scale::Linear => {
                 let mut chart = chart.build_cartesian_2d(x0..x1, y0..y1)?;
-                let [x, y] = [x1 - x0, y1 - y0].map(|width| decimals(width, LABELS));
+                let [x, y] = [(x1 - x0, x_labels), (y1 - y0, LABELS)]
+                    .map(|(width, labels)| decimals(width, labels));
                 let words = |decimals: usize| {
                     move |value: &f64| label(*value, decimals).replace('-', "\u{2212}")
                 };
-                self.mesh(&mut chart, scale, &words(x), &words(y), LABELS)?;
+                self.mesh(&mut chart, scale, &words(x), &words(y), [x_labels, LABELS])?;
                 (chart.plotting_area().strip_coord_spec(), self.x, self.y)
             }
             Scale::Logarithmic => {
                 let [x, y] = [(x0..x1).log_scale(), (y0..y1).log_scale()];
                 let mut chart = chart.build_cartesian_2d(x, y)?;
                 let words = |value: &f64| format!("{}", (value * 1e9).round() / 1e9);
-                self.mesh(&mut chart, scale, &words, &words, 2 * LABELS)?;
+                self.mesh(&mut chart, scale, &words, &words, [LABELS, 2 * LABELS])?;
                 let area = chart.plotting_area().strip_coord_spec();
                 (area, self.x.map(f64::log10), self.y.map(f64::log10))
             }
@@ -116,7 +122,7 @@ impl Axes<'_> {
         scale: u32,
         x_words: &dyn Fn(&f64) -> String,
         y_words: &dyn Fn(&f64) -> String,
-        y_labels: usize,
+        [x_labels, y_labels]: [usize; 2],
     ) -> Drawn<B>
     where
         B::ErrorType: 'static,
@@ -126,7 +132,7 @@ impl Axes<'_> {
         let small = (FONT, (TEXT - 1) * scale).into_font().color(&BLACK);
         chart
             .configure_mesh()
-            .x_labels(LABELS)
+            .x_labels(x_labels)
             .y_labels(y_labels)
             .max_light_lines(0)
             .bold_line_style(GRID.stroke_width(scale))

@@ -12,6 +12,8 @@ pub const SIZE: (u32, u32) = (1000, 1270);
 const LEGEND: i32 = 62;
 const REAL_ROW: i32 = 200;
 const COMPLEX_ROW: i32 = 400;
+/// Sloshing frequencies above this part of the lowest one at the start are enlarged.
+const STILL_HIGH: f64 = 0.9;
 
 /// One sweep.
 pub struct Loci<'a>(pub &'a Sweep);
@@ -93,8 +95,10 @@ impl Drawing for Loci<'_> {
                 let axes = Axes { title, names: ["Re s, rad/s", "Im s, rad/s"], x, y };
                 let plot = axes.draw(cell, scale)?;
                 for branch in branches {
-                    let points: Vec<_> = branch.values.iter().map(|v| (v.re, v.im)).collect();
-                    draw_branch(&plot, branch.name, &points, sweep)?;
+                    draw_branch(&plot, branch.name, &places(branch), sweep)?;
+                }
+                if sweep.parameter == Parameter::Fuel && titles[0].starts_with("(e)") {
+                    enlarge(&plot, branches, &both.concat(), sweep)?;
                 }
             }
         }
@@ -129,6 +133,52 @@ where
     draw_branch(&plot, branch.name, &points, sweep)
 }
 
+fn places(branch: &Branch) -> Vec<(f64, f64)> {
+    branch.values.iter().map(|v| (v.re, v.im)).collect()
+}
+
+/// While the tanks are not yet low, the sloshing frequencies stay together and turn back: larger, in
+/// the free corner of the panel.
+fn enlarge<B: DrawingBackend>(
+    plot: &Plot<B>,
+    branches: &[&Branch],
+    both: &[&Branch],
+    sweep: &Sweep,
+) -> Drawn<B>
+where
+    B::ErrorType: 'static,
+{
+    let slosh = |branch: &&&Branch| matches!(branch.name, Name::Slosh(_));
+    let starts = both.iter().filter(slosh).map(|branch| branch.first().im);
+    let lowest = STILL_HIGH * starts.fold(f64::INFINITY, f64::min);
+    let high = |branch: &Branch| -> Vec<_> {
+        places(branch).into_iter().take_while(|(_, im)| *im > lowest).collect()
+    };
+    let values: Vec<_> = both.iter().filter(slosh).flat_map(|branch| high(branch)).collect();
+    let scale = plot.scale;
+    let (width, height) = plot.size();
+    let corner = plot
+        .area
+        .clone()
+        .shrink((width * 43 / 100, height * 3 / 100), (width * 56 / 100, height * 62 / 100));
+    corner.fill(&WHITE)?;
+    let axes = Axes {
+        title: "slosh, enlarged",
+        names: ["Re s, rad/s", ""],
+        x: range(values.iter().map(|(re, _)| *re), 0.1),
+        y: range(values.iter().map(|(_, im)| *im), 0.1),
+    };
+    let inset = axes.draw(&corner, scale)?;
+    for branch in branches.iter().filter(slosh) {
+        let look = Look::of(branch.name);
+        let pixels = draw_path(&inset, look, &high(branch), sweep)?;
+        if let Some(first) = pixels.first() {
+            marker::draw(&inset.area, look, *first, false, scale)?;
+        }
+    }
+    Ok(())
+}
+
 fn draw_branch<B: DrawingBackend>(
     plot: &Plot<B>,
     name: Name,
@@ -136,6 +186,21 @@ fn draw_branch<B: DrawingBackend>(
     sweep: &Sweep,
 ) -> Drawn<B> {
     let look = Look::of(name);
+    let pixels = draw_path(plot, look, points, sweep)?;
+    if let [first, .., last] = pixels.as_slice() {
+        marker::draw(&plot.area, look, *first, false, plot.scale)?;
+        marker::draw(&plot.area, look, *last, true, plot.scale)?;
+    }
+    Ok(())
+}
+
+/// Line, dots and arrow; its pixels.
+fn draw_path<B: DrawingBackend>(
+    plot: &Plot<B>,
+    look: Look,
+    points: &[(f64, f64)],
+    sweep: &Sweep,
+) -> Result<Vec<(i32, i32)>, DrawingAreaErrorKind<B::ErrorType>> {
     let scale = plot.scale;
     plot.line(points, look.colour.stroke_width(2 * scale))?;
     let pixels: Vec<_> = points.iter().map(|point| plot.place(*point)).collect();
@@ -146,11 +211,7 @@ fn draw_branch<B: DrawingBackend>(
         }
     }
     marker::arrow(&plot.area, look.colour, &pixels, scale)?;
-    if let [first, .., last] = pixels.as_slice() {
-        marker::draw(&plot.area, look, *first, false, scale)?;
-        marker::draw(&plot.area, look, *last, true, scale)?;
-    }
-    Ok(())
+    Ok(pixels)
 }
 
 fn legend<B: DrawingBackend>(area: &Area<B>, sweep: &Sweep, scale: u32) -> Drawn<B> {

@@ -1,0 +1,94 @@
+//! What the fuel level decides of a vehicle.
+
+use crate::aero::{Elastic, ModalForces, PerMode};
+use crate::modes::{MODES, SLOSH};
+
+/// Mass, elastic terms and modes at one fuel level, per metre of width; in plain numbers, or in such
+/// as carry derivatives by the fuel.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Airframe<C = f64> {
+    /// Mass, kg/m.
+    pub mass: C,
+    /// Pitch inertia, kg m^2/m.
+    pub inertia: C,
+    /// Station of the mass centre, m from the nose.
+    pub mass_centre: C,
+    /// Elastic terms of the curve fits; modal forces already divided by the modal mass.
+    pub elastic: Elastic<C>,
+    /// Modal stiffness matrix, 1/s^2: eta-dd + D eta-d + K eta = N. Diagonal, with the squares of
+    /// the frequencies, until fuel burns.
+    pub stiffness: [PerMode<C>; MODES],
+    /// Modal damping matrix D, 1/s.
+    pub damping: [PerMode<C>; MODES],
+    /// Modal acceleration by which the tanks' floors carry the liquid's weight, m/s^2: the springs
+    /// of the sloshing masses bear only what deviates from steady flight.
+    pub floor: PerMode<C>,
+    /// Sloshing displacement relative to the tank per modal coordinate.
+    pub slosh: [PerMode<C>; SLOSH],
+    /// How the shapes turn with the fuel f, in the product of the mass matrix M:
+    /// `phi_i^T M (d phi_k / df) / mu_i`, m/kg.
+    pub turning: [PerMode<C>; MODES],
+}
+
+/// Numbers in an airframe.
+pub const COEFFICIENTS: usize = size_of::<Airframe>() / size_of::<f64>();
+
+impl<C> Airframe<C> {
+    /// All numbers, in a fixed order.
+    fn parts(&mut self) -> [&mut [C]; 19] {
+        use std::slice::from_mut as one;
+        let Self { mass, inertia, mass_centre, elastic, .. } = self;
+        let Self { stiffness, damping, floor, slosh, turning, .. } = self;
+        let Elastic { lift, drag, moment, inflow, force } = elastic;
+        let ModalForces { alpha, delta_e, plume, elastic, .. } = force;
+        let ModalForces { pitch_rate, thrust_across, thrust_couple, .. } = force;
+        [
+            one(mass),
+            one(inertia),
+            one(mass_centre),
+            lift.per.as_flattened_mut(),
+            drag.per.as_flattened_mut(),
+            moment.per.as_flattened_mut(),
+            inflow.per.as_flattened_mut(),
+            alpha.as_flattened_mut(),
+            delta_e,
+            plume,
+            elastic.as_flattened_mut().as_flattened_mut(),
+            pitch_rate,
+            thrust_across,
+            thrust_couple,
+            stiffness.as_flattened_mut(),
+            damping.as_flattened_mut(),
+            floor,
+            slosh.as_flattened_mut(),
+            turning.as_flattened_mut(),
+        ]
+    }
+}
+
+impl<C: Copy + Default> Airframe<C> {
+    /// All numbers in a row.
+    pub fn to_row(mut self) -> [C; COEFFICIENTS] {
+        let mut row = [C::default(); COEFFICIENTS];
+        let mut rest = &mut row[..];
+        for part in self.parts() {
+            let (first, others) = rest.split_at_mut(part.len());
+            first.copy_from_slice(part);
+            rest = others;
+        }
+        row
+    }
+
+    /// From what [`Airframe::to_row`] gives.
+    #[inline]
+    pub fn from_row(row: &[C; COEFFICIENTS]) -> Self {
+        let mut airframe = Self::default();
+        let mut rest = &row[..];
+        for part in airframe.parts() {
+            let (first, others) = rest.split_at(part.len());
+            part.copy_from_slice(first);
+            rest = others;
+        }
+        airframe
+    }
+}
