@@ -40,7 +40,7 @@ fn tested() -> String {
     ["src", "build", "tests"]
         .iter()
         .flat_map(|folder| sources(folder))
-        .chain(files("tests/fmu", "py"))
+        .chain(files("tests", "py"))
         .map(|(_, text)| text)
         .collect()
 }

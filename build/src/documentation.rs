@@ -1,6 +1,5 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
-use crate::table::number;
 use crate::workspace::{read_text, root};
 use ahv::flight::Flight;
 use ahv::variables::{Kind, Role, TABLE, Variable, guid};
@@ -10,7 +9,8 @@ use std::fmt::Write;
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
 table{border-collapse:collapse;font-size:14px}th,td{border:1px solid #bbb;padding:.2em .5em;\
-text-align:left;vertical-align:top}th{background:#eee}td.n{text-align:right}";
+text-align:left;vertical-align:top}th{background:#eee}td.n{text-align:right}\
+td:last-child{min-width:18em}";
 
 const EQUATIONS: &str = "\
 <p>The rigid body moves over a round, non-rotating earth with inverse-square gravity. States are
@@ -29,6 +29,7 @@ propellant is inside them; the dampers of the sloshing masses couple them.</li>
 ratio and the modal coordinates with their rates.</li>
 <li>In air that moves, incidence, airspeed and Mach number are those relative to the air, and lift
 and drag stand across and along the path through it. The gust is the same along the vehicle.</li>
+<li>With <code>fuel_burn</code> the engine takes its fuel from the tanks; mass, mass centre and modes follow.</li>
 </ul>
 <p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
 the master gives for the step; the states are integrated with an explicit
@@ -38,11 +39,10 @@ point.</p>";
 const WHAT: &str = "\
 <p><img src=\"../model.png\" alt=\"Side view with two tanks; below, the first bending mode\" \
 width=\"300\"/></p>
-<p>Inputs are elevator and fuel ratio; outputs are the rigid-body motion, the flexible and sloshing
+<p>Inputs are elevator, fuel ratio and the air's vertical velocity; outputs are the rigid-body motion, the flexible and sloshing
 modes and the loads. The fuselage is a free-free beam of finite elements; two tanks carry sloshing
 masses that take part in its modes. All numbers are inside the library: it reads no file, opens no
-window and needs nothing but the system. Linux (x86-64) with glibc 2.17 or newer and Windows (x86-64)
-compute the same bits, and a serialised state of one continues on the other.</p>";
+window and needs nothing but the system.</p>";
 
 const CITE: &str = "\
 <h2>How to cite</h2>
@@ -62,13 +62,23 @@ import is the matter. Otherwise tell the authors: version and identifier of the 
 tool and its version; parameters that were set, inputs, step and tolerance; the log with all
 categories on (<code>fmi2SetDebugLogging</code>); what came out and what was expected.</p>";
 
-/// The page, as valid XHTML. The same sources give the same bytes.
-pub fn html() -> Result<String> {
+/// The page, as valid XHTML; `machines` are those that it is packaged for. The same sources give the
+/// same bytes.
+pub fn html(machines: &[String]) -> Result<String> {
     let mut flight = Flight::new()?;
     let mut rows = String::new();
-    for (reference, variable) in TABLE.iter().enumerate() {
+    // What a master sets while it flies comes first; references only ever grow.
+    let (inputs, others): (Vec<_>, Vec<_>) =
+        TABLE.iter().enumerate().partition(|(_, variable)| matches!(variable.role, Role::Input(_)));
+    for (reference, variable) in inputs.into_iter().chain(others) {
         variable_row(&mut rows, reference, variable, &flight)?;
     }
+    let same = if machines.len() > 1 {
+        " They compute the same bits, and a serialised state of one continues on the other."
+    } else {
+        ""
+    };
+    let machines = format!("<p>It runs on {}.{same}</p>", machines.join(" and on "));
     flight.initialise()?;
     let limits = limits(&flight)?;
     let changes = changes()?;
@@ -80,7 +90,7 @@ pub fn html() -> Result<String> {
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
          2015, 81-88. FMI 2.0 for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
-         {WHAT}\n\
+         {WHAT}\n{machines}\n\
          <h2>Use</h2>\n\
          <p>Without any setting the vehicle flies level and trimmed; <code>delta_e</code> and \
          <code>phi</code> are deviations from trim. It is unstable in pitch, as every vehicle of \
@@ -99,6 +109,12 @@ pub fn html() -> Result<String> {
     ))
 }
 
+/// A round number as one writes it, whatever conversion did to its last digits.
+fn plain(value: f64) -> String {
+    const DIGITS: f64 = 1e9;
+    ((value * DIGITS).round() / DIGITS).to_string()
+}
+
 /// The changelog without its title, one level down.
 fn changes() -> Result<String> {
     let text = read_text(&root().join("CHANGELOG.md"))?;
@@ -113,7 +129,7 @@ fn limits(flight: &Flight) -> Result<String> {
     let vehicle = flight.vehicle().ok_or_else(|| anyhow!("the flight is not initialised"))?;
     let envelope = &vehicle.aero.envelope;
     let between = |[min, max]: [f64; 2], factor: f64, unit: &str| {
-        format!("{} to {}{unit}", number(min * factor), number(max * factor))
+        format!("{} to {}{unit}", plain(min * factor), plain(max * factor))
     };
     let degrees = 1f64.to_degrees();
     let [elevator, fuel] = vehicle.limits;
@@ -148,7 +164,7 @@ fn variable_row(
     };
     let value = variable.get(flight);
     let (unit, value) = match variable.kind {
-        Kind::Real(unit) => (unit.name, number(value)),
+        Kind::Real(unit) => (unit.name, plain(value)),
         Kind::Boolean => ("", (value != 0.0).to_string()),
         Kind::Enumeration(_, items) => {
             let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);
@@ -159,7 +175,7 @@ fn variable_row(
     let range = match (variable.kind, variable.range) {
         (Kind::Enumeration(_, items), _) => {
             let items = items.iter().map(|(name, number, _)| format!("{number} {name}"));
-            items.collect::<Vec<_>>().join(", ")
+            items.collect::<Vec<_>>().join("<br/>")
         }
         (_, Some([min, max])) => format!("{min} to {max}"),
         (_, None) => String::new(),
@@ -178,7 +194,7 @@ fn variable_row(
 mod tests {
     #[test]
     fn page_is_well_formed_and_names_every_variable() {
-        let page = super::html().unwrap();
+        let page = super::html(&["Linux".to_string()]).unwrap();
         let mut reader = quick_xml::Reader::from_str(&page);
         while !matches!(reader.read_event().unwrap(), quick_xml::events::Event::Eof) {}
         for variable in &ahv::variables::TABLE {
@@ -188,7 +204,7 @@ mod tests {
 
     #[test]
     fn page_cites_the_paper_as_the_citation_file_does_and_tells_changes() {
-        let page = super::html().unwrap().replace('\n', " ");
+        let page = super::html(&["Linux".to_string()]).unwrap().replace('\n', " ");
         let citation = include_str!("../../CITATION.cff");
         for key in ["    title: ", "    doi: ", "    journal: "] {
             let (_, rest) = citation.split_once(&format!("\n{key}")).unwrap();

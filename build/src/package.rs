@@ -150,15 +150,20 @@ type Files = BTreeMap<String, Vec<u8>>;
 fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
     let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
-    files.insert("documentation/index.html".to_string(), documentation::html()?.into_bytes());
     files.extend(licenses::collect()?);
     let picture = icon::png()?;
     files.extend(terminals::files(&picture)?);
     files.insert("model.png".to_string(), picture);
+    let mut machines = Vec::new();
     for (platform, library) in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
-        files.insert(name, read(library)?);
+        let library = read(library)?;
+        let glibc = Binary::parse(&library).ok().and_then(|binary| binary.glibc);
+        machines.push(platform.machines(glibc));
+        files.insert(name, library);
     }
+    let page = documentation::html(&machines)?;
+    files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
 }
 

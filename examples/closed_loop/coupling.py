@@ -164,7 +164,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     if not options.fmu.is_file():
-        sys.exit(f"{options.fmu} does not exist: run `cargo ahv package`")
+        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
     options.output.mkdir(parents=True, exist_ok=True)
     folder, stop_s = extract(str(options.fmu)), options.stop
     exact = fixed(folder, REFERENCE_S, BOTH, stop_s)

@@ -13,7 +13,7 @@ try:
 
     import design
     from masters import NAMES, MasterFailed, fly_fmpy, fly_libcosim
-    from system import build
+    from system import BadSystem, build
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -72,7 +72,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     if not options.fmu.is_file():
-        sys.exit(f"{options.fmu} does not exist: run `cargo ahv package`")
+        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
     options.output.mkdir(parents=True, exist_ok=True)
 
     full = design.model(extract(str(options.fmu)))
@@ -83,9 +83,12 @@ def main() -> None:
             f"{name:8} gain {m.gain_down_db:+.1f} to {m.gain_up_db:+.1f} dB, "
             f"phase {m.phase_deg:.0f} deg, distance from -1 {m.distance:.2f}"
         )
-    ssp = build(
-        options.output / "closed_loop.ssp", options.fmu, law, options.manoeuvre, options.stop
-    )
+    try:
+        ssp = build(
+            options.output / "closed_loop.ssp", options.fmu, law, options.manoeuvre, options.stop
+        )
+    except (BadSystem, OSError) as failure:
+        sys.exit(f"error: {failure}")
     print(f"{ssp}: valid")
     csv = options.output / "libcosim.csv"
     try:

@@ -6,6 +6,7 @@ import tempfile
 import zipfile
 from pathlib import Path
 
+import numpy as np
 from fmpy import read_model_description
 from fmpy.ssp.ssd import SystemStructureDescription, get_connections, read_ssd
 from pythonfmu.builder import FmuBuilder
@@ -32,7 +33,7 @@ RECORDED = [
 
 
 class BadSystem(Exception):
-    """The system structure names something that is not there."""
+    """The system structure names something that is not there, or the manoeuvre is none."""
 
 
 def connectors() -> dict[str, dict[str, str]]:
@@ -78,8 +79,20 @@ def description(period_s: float, stop_s: float) -> str:
 """
 
 
+def check_manoeuvre(path: Path) -> None:
+    """The columns that the component offers, and times that increase."""
+    columns = ",".join(["time_s", *connectors()["manoeuvre"]])
+    with path.open(encoding="utf-8") as lines:
+        if lines.readline().strip() != columns:
+            raise BadSystem(f"{path}: the first line must be {columns}")
+    times = np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True)["time_s"])
+    if not times.size or (np.diff(times) <= 0.0).any():
+        raise BadSystem(f"{path}: time_s must increase from row to row")
+
+
 def build(path: Path, vehicle: Path, law: Law, manoeuvre: Path, stop_s: float) -> Path:
-    """Build the FMUs of autopilot and manoeuvre and write the .ssp file."""
+    """Build the FMUs of autopilot and manoeuvre and write the .ssp file; or BadSystem."""
+    check_manoeuvre(manoeuvre)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         law.save(folder / "law.json")

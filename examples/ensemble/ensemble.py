@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import logging
 import sys
 import time
 import zipfile
@@ -44,6 +45,8 @@ BATCH = 25
 CONNECT_S = 10
 # How often a batch may take its worker down before it is given up.
 RETRIES = 3
+# Reasons printed; a cluster that is lost has the same for all its batches.
+SAID = 5
 
 
 def sample(count: int, seed: int) -> list[dict[str, float]]:
@@ -64,10 +67,20 @@ def connect(scheduler: str | None, workers: int | None) -> Client:
     """An existing cluster, or one of processes on this machine."""
     if scheduler is None:
         return Client(LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None))
+    # Of a scheduler that is lost later it prints pages; fly() says it in a line.
+    logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     try:
-        return Client(scheduler, timeout=CONNECT_S)
+        client = Client(scheduler, timeout=CONNECT_S)
     except (OSError, ValueError) as failure:
         sys.exit(f"error: no scheduler answers at {scheduler} within {CONNECT_S} s: {failure}")
+    try:
+        client.wait_for_workers(1, timeout=CONNECT_S)
+    except TimeoutError:
+        client.close()
+        sys.exit(
+            f"error: the scheduler at {scheduler} has no worker: start `dask worker {scheduler}`"
+        )
+    return client
 
 
 def part(folder: Path, number: int) -> Path:
@@ -91,7 +104,9 @@ def fly(client: Client, tasks: dict[int, Task], fmu: bytes, folder: Path) -> Ite
     }
     for future in as_completed(futures):
         if future.status != "finished":
-            yield f"batch {futures[future]}: {future.exception()}"
+            # Without a scheduler nobody knows an exception.
+            why = future.exception() or f"{future.status}: the scheduler is gone"
+            yield f"batch {futures[future]}: {why}"
             continue
         target = part(folder, futures[future])
         pq.write_table(pa.Table.from_pylist(future.result()), target.with_suffix(".new"))
@@ -174,8 +189,16 @@ def main() -> None:
                 bar(done, len(tasks), since)
                 failures += [failure] if failure else []
         seconds = time.monotonic() - since
-        flown = sum(len(task.vehicles) for task in tasks.values())
+        flown = sum(
+            len(task.vehicles) for number, task in tasks.items() if part(folder, number).exists()
+        )
         print(f"\n{flown} flights in {seconds:.0f} s: {flown / seconds:.1f} per second")
+    lost = (
+        f"error: {len(failures)} of {len(batches)} batches are missing: run again to fly them\n"
+        + "\n".join(failures[:SAID])
+    )
+    if len(failures) == len(batches):
+        sys.exit(lost)
     table = pq.read_table(folder)
     print(summary(table))
     every_s = SAMPLE_EVERY * design.PERIOD_S
@@ -183,7 +206,7 @@ def main() -> None:
     pictures.margins(table, options.output / "margins.png")
     print(f"{folder}, {options.output / 'envelope.png'}, {options.output / 'margins.png'}")
     if failures:
-        sys.exit("error: run again to fly what is missing:\n" + "\n".join(failures))
+        sys.exit(lost)
 
 
 if __name__ == "__main__":

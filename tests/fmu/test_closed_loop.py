@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import csv
-import os
 import subprocess
 import sys
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +14,7 @@ import pytest
 
 import coupling
 import design
+import flight
 from harness import Package
 from masters import NAMES, MasterFailed, fly_libcosim
 from system import BadSystem, build, validate
@@ -26,24 +27,18 @@ STOP_S = 8.0
 
 
 def example(
-    script: str, package: Package, output: Path, *options: str, **environment: str
+    script: str, package: Package, output: Path, *options: str
 ) -> subprocess.CompletedProcess[str]:
     """Run a script of the example."""
     command = [sys.executable, str(EXAMPLE / script), "--fmu", str(package.path)]
     return subprocess.run(
-        [*command, "--output", str(output), *options],
-        capture_output=True,
-        text=True,
-        env=os.environ | environment,
-        check=False,
+        [*command, "--output", str(output), *options], capture_output=True, text=True, check=False
     )
 
 
-def fly(
-    package: Package, output: Path, *options: str, **environment: str
-) -> subprocess.CompletedProcess[str]:
+def fly(package: Package, output: Path, *options: str) -> subprocess.CompletedProcess[str]:
     """Run the short flight."""
-    return example("fly.py", package, output, "--stop", str(STOP_S), *options, **environment)
+    return example("fly.py", package, output, "--stop", str(STOP_S), *options)
 
 
 @pytest.fixture(scope="module")
@@ -98,6 +93,16 @@ def test_an_autopilot_that_sends_nan_ends_the_flight_and_loses_nothing(
     assert "NaN is refused" in run.stderr and "after t = 1.0" in run.stderr
     rows = np.genfromtxt(tmp_path / "libcosim.csv", delimiter=",", names=True)
     assert len(rows) > 90 and np.isfinite(rows["vehicleV"]).all()
+
+
+def test_a_law_that_commands_no_number_ends_its_flight_with_the_reason(
+    package: Package, law: design.Law
+) -> None:
+    bad = replace(law, Ki=np.full_like(law.Ki, np.nan))
+    flown = flight.fly(str(package.folder), bad, np.zeros((100, 2)))
+    assert "delta_e" in flown.ended and "NaN is refused" in flown.ended
+    # The command for the second step; the first one is flown and kept.
+    assert len(flown.rows) == 1 and np.isfinite(flown.rows[:, :4]).all()
 
 
 def test_an_autopilot_at_its_stops_does_not_wind_up(package: Package, tmp_path: Path) -> None:
@@ -159,13 +164,26 @@ def test_a_structure_that_names_what_is_not_there_is_refused(ssp: Path, tmp_path
         validate(bad)
 
 
-def test_a_missing_package_is_named_with_the_command_that_brings_it(
-    package: Package, tmp_path: Path
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "the first line must be time_s,V_change,gamma_wanted"),
+        ("time_s,gamma\n0,0\n", "the first line must be time_s,V_change,gamma_wanted"),
+        ("time_s,V_change,gamma_wanted\n1,0,0\n1,0,1\n", "time_s must increase"),
+        (None, "No such file"),
+    ],
+    ids=["empty", "another column", "time stands still", "no file"],
+)
+def test_a_manoeuvre_that_is_none_is_refused_before_the_flight(
+    package: Package, tmp_path: Path, text: str | None, said: str
 ) -> None:
-    (tmp_path / "control.py").write_text("raise ModuleNotFoundError(name='control')\n", "utf-8")
-    run = fly(package, tmp_path, PYTHONPATH=str(tmp_path))
+    manoeuvre = tmp_path / "bad.csv"
+    if text is not None:
+        manoeuvre.write_text(text, "utf-8")
+    run = fly(package, tmp_path, "--manoeuvre", str(manoeuvre))
     assert run.returncode == 1
-    assert "control is missing: pip install" in run.stderr
+    assert run.stderr.startswith("error: ") and "bad.csv" in run.stderr and said in run.stderr
+    assert not (tmp_path / "libcosim.csv").exists()
 
 
 def test_sloshing_example_shows_a_redesign_that_copes(package: Package, tmp_path: Path) -> None:

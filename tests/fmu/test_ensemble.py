@@ -129,6 +129,47 @@ def test_an_unreachable_scheduler_is_named(
     assert f"no scheduler answers at {address}" in str(refused.value)
 
 
+def test_a_scheduler_without_workers_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ensemble, "CONNECT_S", 1)
+    with (
+        LocalCluster(n_workers=0, dashboard_address=None) as empty,
+        pytest.raises(SystemExit) as refused,
+    ):
+        ensemble.connect(empty.scheduler_address, None)
+    assert f"the scheduler at {empty.scheduler_address} has no worker" in str(refused.value)
+
+
+def test_a_scheduler_that_dies_loses_no_result(
+    package: Package, cluster: LocalCluster, tmp_path: Path
+) -> None:
+    code = (
+        "from dask.distributed import LocalCluster\n"
+        "cluster = LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None)\n"
+        "print(cluster.scheduler_address, flush=True)\n"
+        "input()"
+    )
+    with subprocess.Popen(
+        [sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as scheduler:
+        line = command(package, tmp_path, "--scheduler", scheduler.stdout.readline().strip())
+        with subprocess.Popen(
+            line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        ) as flying:
+            end = time.monotonic() + PATIENCE_S
+            while not list(tmp_path.glob("flights/part-*.parquet")):
+                assert flying.poll() is None and time.monotonic() < end
+                time.sleep(0.01)
+            scheduler.kill()
+            _, said = flying.communicate(timeout=PATIENCE_S)
+    assert flying.returncode == 1
+    assert "the scheduler is gone" in said and "run again" in said and "Traceback" not in said
+    kept = len(rows(tmp_path))
+    assert 0 < kept < FLIGHTS
+    again = run(package, tmp_path, "--scheduler", cluster.scheduler_address)
+    assert again.returncode == 0, again.stderr
+    assert f"{FLIGHTS - kept} flights in" in again.stdout and len(rows(tmp_path)) == FLIGHTS
+
+
 def test_a_vehicle_that_cannot_be_trimmed_is_a_row_with_the_reason(package: Package) -> None:
     (vehicle,) = ensemble.sample(1, 1)
     law = design.design(design.model(str(package.folder)))

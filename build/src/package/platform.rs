@@ -1,5 +1,6 @@
 //! Platforms by their names in an FMU.
 
+use super::binary::{GLIBC, Glibc};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 
@@ -32,6 +33,22 @@ pub const HOST: Platform = if cfg!(windows) {
     LINUX
 };
 
+impl Platform {
+    /// The machines that it serves, for readers; `glibc`: the newest that the library asks for.
+    /// Less than what every build is allowed to ask for is not promised.
+    pub fn machines(self, glibc: Option<Glibc>) -> String {
+        match (self, glibc) {
+            (LINUX, Some(glibc)) => {
+                let (major, minor) = glibc.max(GLIBC);
+                format!("Linux (x86-64) with glibc {major}.{minor} or newer")
+            }
+            (LINUX, None) => "Linux (x86-64)".to_string(),
+            (WINDOWS, _) => "Windows (x86-64)".to_string(),
+            _ => format!("machines like {}", self.triple),
+        }
+    }
+}
+
 /// A library given as `platform=file`.
 pub fn given(text: &str) -> Result<(Platform, PathBuf)> {
     let known = || PLATFORMS.map(|platform| platform.name).join(", ");
@@ -47,6 +64,14 @@ pub fn given(text: &str) -> Result<(Platform, PathBuf)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn readers_are_told_the_glibc_that_the_library_needs() {
+        let told = |glibc| LINUX.machines(Some(glibc));
+        assert_eq!(told((2, 36)), "Linux (x86-64) with glibc 2.36 or newer");
+        assert_eq!(told((2, 14)), told(GLIBC));
+        assert!(!WINDOWS.machines(None).contains("glibc"));
+    }
 
     #[test]
     fn library_options_name_the_platform() {
