@@ -41,7 +41,7 @@ pub struct Tableau<const S: usize> {
 pub struct Trial<const N: usize> {
     /// State at its end.
     pub next: [f64; N],
-    /// Estimate of its error, of the higher embedded order.
+    /// Estimate of its error over its length, of the higher embedded order, per second.
     pub high: [f64; N],
     /// A second estimate of lower order, which steadies the first; zeros for none.
     pub low: [f64; N],
@@ -164,13 +164,14 @@ impl Integrator {
         step: [f64; 2],
         slope: &[f64; N],
     ) -> ([f64; N], f64) {
-        let Trial { next, high: per_high, low: per_low } = method.trial(system, x, step, slope);
+        let trial = method.trial(system, x, step, slope);
+        let ([_, h], next) = (step, trial.next);
         let nominal = system.nominal();
         let (mut high, mut low) = (0.0_f64, 0.0_f64);
         for i in 0..N {
             let scale = self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs()));
-            high = worse(high, per_high[i] / scale);
-            low = worse(low, per_low[i] / scale);
+            high = worse(high, h * trial.high[i] / scale);
+            low = worse(low, h * trial.low[i] / scale);
         }
         if high == 0.0 {
             return (next, 0.0);
@@ -185,6 +186,7 @@ impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
         self.error_order
     }
 
+    #[inline]
     fn trial(
         &self,
         system: &impl System<N>,
@@ -199,8 +201,7 @@ impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
             let trial = advanced(combine(&stages[..stage], &self.a[stage]));
             stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
         }
-        let [high, low] =
-            [&self.error, &self.error_low].map(|w| combine(&stages, w).map(|sum| h * sum));
+        let [high, low] = [&self.error, &self.error_low].map(|w| combine(&stages, w));
         Trial { next: advanced(combine(&stages, &self.b)), high, low }
     }
 }
