@@ -41,9 +41,9 @@ pub struct Tableau<const S: usize> {
 pub struct Trial<const N: usize> {
     /// State at its end.
     pub next: [f64; N],
-    /// Estimate of its error over its length, of the higher embedded order, per second.
+    /// Estimate of its error, of the higher embedded order, over its length, 1/s.
     pub high: [f64; N],
-    /// A second estimate of lower order, which steadies the first; zeros for none.
+    /// A second estimate of lower order, which steadies the first; zeros for none. 1/s.
     pub low: [f64; N],
 }
 

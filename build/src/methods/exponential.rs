@@ -148,7 +148,7 @@ impl Method<STATES> for Exponential {
             }
         }
         let [high, low] = ESTIMATES
-            .map(|weights| rest.iter().zip(weights).map(|(d, w)| *w * d).sum::<Vector>().into());
+            .map(|weights| rest.iter().zip(weights).map(|(d, w)| w * d).sum::<Vector>().into());
         Trial { next, high, low }
     }
 }
