@@ -19,6 +19,9 @@ use std::cell::Cell;
 
 /// Elevator against its trim value, rad, over the quarters of the flight.
 pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
+/// Feedback of incidence (rad per rad) and pitch rate (s) to the elevator that stabilises the short
+/// period.
+pub const FEEDBACK: [f64; 2] = [9.0, 2.0];
 /// Length of the flight, s: the unstable vehicle keeps few digits for longer.
 pub const FLIGHT_S: f64 = 1.0;
 /// Of incidence, pitch rate and modes at the start of the second flight, in typical sizes.
@@ -26,6 +29,31 @@ const DISTURBANCE: f64 = 3.0;
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Of the flight that counts as exact; flown with another method than the vehicle's own.
 pub const EXACT: f64 = 1e-14;
+
+/// What moves the elevator.
+#[derive(Debug, Clone, Copy)]
+pub struct Law {
+    /// Incidence in trim, rad.
+    alpha: f64,
+    feedback: [f64; 2],
+}
+
+impl Law {
+    /// The doublet alone.
+    pub const OPEN: Self = Self { alpha: 0.0, feedback: [0.0; 2] };
+
+    /// The doublet, and feedback against a trim.
+    pub fn closed(trim: &Trim) -> Self {
+        Self { alpha: trim.state[3], feedback: FEEDBACK }
+    }
+
+    /// Elevator against its trim value, rad, in one of the equal communication steps that starts at a
+    /// state.
+    pub fn elevator(&self, step: usize, steps: usize, x: &State) -> f64 {
+        let [per_alpha, per_q] = self.feedback;
+        DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[3] - self.alpha) + per_q * x[4]
+    }
+}
 
 struct Counted<'a> {
     vehicle: &'a Vehicle,
@@ -53,12 +81,13 @@ pub struct Problem<'a> {
     control: Control,
     /// Communication steps of the flight.
     steps: usize,
+    law: Law,
 }
 
 impl<'a> Problem<'a> {
     /// From trim, in equal communication steps.
-    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize) -> Self {
-        Self { vehicle, start: trim.state, control: trim.control, steps }
+    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize, law: Law) -> Self {
+        Self { vehicle, start: trim.state, control: trim.control, steps, law }
     }
 
     /// Final state and right-hand sides.
@@ -66,9 +95,9 @@ impl<'a> Problem<'a> {
         let calls = Cell::new(0);
         let (mut x, mut slope) = (self.start, None);
         let mut integrator = Integrator::new(tolerance, 1e-3);
-        let mut input = DOUBLET[0];
+        let mut input = f64::NAN;
         for step in 0..self.steps {
-            let wanted = DOUBLET[step * DOUBLET.len() / self.steps];
+            let wanted = self.law.elevator(step, self.steps, &x);
             if wanted != input {
                 (input, slope) = (wanted, None);
             }
@@ -111,7 +140,7 @@ pub fn run(options: &Compare) -> Result<()> {
     println!("over its nominal value plus its size\n");
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
-            let problem = Problem::new(vehicle, &from, steps);
+            let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
             let (exact, _) = problem.fly(&RKF78, EXACT);
             let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853", "exponential"])];
             for tolerance in TOLERANCES {

@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
-use crate::{abuse, describe, package};
+use crate::{abuse, bench, describe, package};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
@@ -13,7 +13,7 @@ use std::time::Instant;
 /// A named step.
 type Step = (&'static str, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 13] = [
+const STEPS: [Step; 14] = [
     ("prerequisites", |_| prerequisites()),
     ("format", |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", |_| {
@@ -34,6 +34,7 @@ const STEPS: [Step; 13] = [
     ("Python lints", |_| python_lints()),
     ("FMI headers", |_| fmi_headers()),
     ("FMU tests", |_| python_tests("tests/fmu")),
+    ("bench runs", |_| bench::smoke()),
     WINDOWS,
 ];
 
@@ -157,7 +158,7 @@ fn fmi_headers() -> Result<()> {
     )
 }
 
-/// The interpreter for the tests of the FMU.
-fn python() -> Result<PathBuf> {
+/// The interpreter for the tests of the FMU, and for what is measured in Python.
+pub fn python() -> Result<PathBuf> {
     Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
 }
