@@ -37,6 +37,30 @@ pub struct Tableau<const S: usize> {
     pub error_order: i32,
 }
 
+/// What a trial step comes to.
+pub struct Trial<const N: usize> {
+    /// State at its end.
+    pub next: [f64; N],
+    /// Estimate of its error, of the higher embedded order, over its length, 1/s.
+    pub high: [f64; N],
+    /// A second estimate of lower order, which steadies the first; zeros for none. 1/s.
+    pub low: [f64; N],
+}
+
+/// A one-step method.
+pub trait Method<const N: usize> {
+    /// The estimate falls as h to this power.
+    fn error_order(&self) -> i32;
+    /// A step of length h from t and x, where the derivatives are `slope`.
+    fn trial(
+        &self,
+        system: &impl System<N>,
+        x: &[f64; N],
+        step: [f64; 2],
+        slope: &[f64; N],
+    ) -> Trial<N>;
+}
+
 /// Step control: keeps the proposal for the next step between intervals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integrator {
@@ -70,9 +94,9 @@ impl Integrator {
     ///
     /// The rest of the interval is cut into equal steps, none longer than the proposal, so no
     /// sliver is left at its end.
-    pub fn advance<const N: usize, const S: usize>(
+    pub fn advance<const N: usize>(
         &mut self,
-        tableau: &Tableau<S>,
+        method: &impl Method<N>,
         system: &impl System<N>,
         x: &mut [f64; N],
         [start, end]: [f64; 2],
@@ -99,12 +123,12 @@ impl Integrator {
                 *first = Some(slope);
                 return Arrival::Stuck(t);
             }
-            let (next, error) = self.step(tableau, system, x, t, h, &slope);
+            let (next, error) = self.step(method, system, x, [t, h], &slope);
             // A NaN, from a wild trial state, counts as far too long a step.
             let factor = if error == 0.0 {
                 FACTORS[1]
             } else if error.is_finite() {
-                let exponent = -1.0 / f64::from(tableau.error_order);
+                let exponent = -1.0 / f64::from(method.error_order());
                 (SAFETY * libm::pow(error, exponent)).clamp(FACTORS[0], FACTORS[1])
             } else {
                 FACTORS[0]
@@ -132,37 +156,53 @@ impl Integrator {
     }
 
     /// One trial step: the new state and its error over the tolerance.
-    fn step<const N: usize, const S: usize>(
+    fn step<const N: usize>(
         &self,
-        tableau: &Tableau<S>,
+        method: &impl Method<N>,
         system: &impl System<N>,
         x: &[f64; N],
-        t: f64,
-        h: f64,
+        step: [f64; 2],
         slope: &[f64; N],
     ) -> ([f64; N], f64) {
-        let mut stages = [[0.0; N]; S];
-        stages[0] = *slope;
-        let advanced = |sum: [f64; N]| std::array::from_fn(|i| x[i] + h * sum[i]);
-        for stage in 1..S {
-            let trial = advanced(combine(&stages[..stage], &tableau.a[stage]));
-            stages[stage] = system.derivatives(t + tableau.c[stage] * h, &trial);
-        }
-        let next = advanced(combine(&stages, &tableau.b));
-
+        let trial = method.trial(system, x, step, slope);
+        let ([_, h], next) = (step, trial.next);
         let nominal = system.nominal();
-        let estimates = [&tableau.error, &tableau.error_low].map(|w| combine(&stages, w));
         let (mut high, mut low) = (0.0_f64, 0.0_f64);
         for i in 0..N {
             let scale = self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs()));
-            high = worse(high, h * estimates[0][i] / scale);
-            low = worse(low, h * estimates[1][i] / scale);
+            high = worse(high, h * trial.high[i] / scale);
+            low = worse(low, h * trial.low[i] / scale);
         }
         if high == 0.0 {
             return (next, 0.0);
         }
         // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
         (next, high * high / libm::sqrt(high * high + 0.01 * low * low))
+    }
+}
+
+impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
+    fn error_order(&self) -> i32 {
+        self.error_order
+    }
+
+    #[inline]
+    fn trial(
+        &self,
+        system: &impl System<N>,
+        x: &[f64; N],
+        [t, h]: [f64; 2],
+        slope: &[f64; N],
+    ) -> Trial<N> {
+        let mut stages = [[0.0; N]; S];
+        stages[0] = *slope;
+        let advanced = |sum: [f64; N]| std::array::from_fn(|i| x[i] + h * sum[i]);
+        for stage in 1..S {
+            let trial = advanced(combine(&stages[..stage], &self.a[stage]));
+            stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
+        }
+        let [high, low] = [&self.error, &self.error_low].map(|w| combine(&stages, w));
+        Trial { next: advanced(combine(&stages, &self.b)), high, low }
     }
 }
 

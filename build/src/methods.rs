@@ -1,5 +1,6 @@
 //! Work against precision: what a method costs, in right-hand sides, for the error it makes.
 
+mod exponential;
 mod tableaus;
 
 pub use tableaus::RKF78;
@@ -8,20 +9,51 @@ use crate::cli::Compare;
 use crate::table::{row, table};
 use crate::trim::{flight, model, ready};
 use ahv::dop853::DOP853;
-use ahv::dynamics::{Control, NOMINAL, STATES, State, Vehicle};
+use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv::flight::DEFAULT_TOLERANCE;
-use ahv::integrate::{Arrival, Integrator, System, Tableau};
+use ahv::integrate::{Arrival, Integrator, Method, System};
 use ahv::trim::Trim;
 use anyhow::Result;
+use exponential::Exponential;
 use std::cell::Cell;
 
 /// Elevator against its trim value, rad, over the quarters of the flight.
 pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
+/// Feedback of incidence (rad per rad) and pitch rate (s) to the elevator that stabilises the short
+/// period.
+pub const FEEDBACK: [f64; 2] = [9.0, 2.0];
 /// Length of the flight, s: the unstable vehicle keeps few digits for longer.
 pub const FLIGHT_S: f64 = 1.0;
+/// Of incidence, pitch rate and modes at the start of the second flight, in typical sizes.
+const DISTURBANCE: f64 = 3.0;
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 /// Of the flight that counts as exact; flown with another method than the vehicle's own.
 pub const EXACT: f64 = 1e-14;
+
+/// What moves the elevator.
+#[derive(Debug, Clone, Copy)]
+pub struct Law {
+    /// Incidence in trim, rad.
+    alpha: f64,
+    feedback: [f64; 2],
+}
+
+impl Law {
+    /// The doublet alone.
+    pub const OPEN: Self = Self { alpha: 0.0, feedback: [0.0; 2] };
+
+    /// The doublet, and feedback against a trim.
+    pub fn closed(trim: &Trim) -> Self {
+        Self { alpha: trim.state[3], feedback: FEEDBACK }
+    }
+
+    /// Elevator against its trim value, rad, in one of the equal communication steps that starts at a
+    /// state.
+    pub fn elevator(&self, step: usize, steps: usize, x: &State) -> f64 {
+        let [per_alpha, per_q] = self.feedback;
+        DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[3] - self.alpha) + per_q * x[4]
+    }
+}
 
 struct Counted<'a> {
     vehicle: &'a Vehicle,
@@ -49,22 +81,23 @@ pub struct Problem<'a> {
     control: Control,
     /// Communication steps of the flight.
     steps: usize,
+    law: Law,
 }
 
 impl<'a> Problem<'a> {
     /// From trim, in equal communication steps.
-    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize) -> Self {
-        Self { vehicle, start: trim.state, control: trim.control, steps }
+    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize, law: Law) -> Self {
+        Self { vehicle, start: trim.state, control: trim.control, steps, law }
     }
 
     /// Final state and right-hand sides.
-    pub fn fly<const S: usize>(&self, tableau: &Tableau<S>, tolerance: f64) -> (State, usize) {
+    pub fn fly(&self, method: &impl Method<STATES>, tolerance: f64) -> (State, usize) {
         let calls = Cell::new(0);
         let (mut x, mut slope) = (self.start, None);
         let mut integrator = Integrator::new(tolerance, 1e-3);
-        let mut input = DOUBLET[0];
+        let mut input = f64::NAN;
         for step in 0..self.steps {
-            let wanted = DOUBLET[step * DOUBLET.len() / self.steps];
+            let wanted = self.law.elevator(step, self.steps, &x);
             if wanted != input {
                 (input, slope) = (wanted, None);
             }
@@ -72,14 +105,14 @@ impl<'a> Problem<'a> {
             let system = Counted { vehicle: self.vehicle, control, calls: &calls };
             let time = |step: usize| FLIGHT_S * step as f64 / self.steps as f64;
             let interval = [time(step), time(step + 1)];
-            let arrival = integrator.advance(tableau, &system, &mut x, interval, &mut slope);
+            let arrival = integrator.advance(method, &system, &mut x, interval, &mut slope);
             assert_eq!(arrival, Arrival::Complete, "the flight is short and stays near trim");
         }
         (x, calls.get())
     }
 
-    fn cell<const S: usize>(&self, tableau: &Tableau<S>, tolerance: f64, exact: &State) -> String {
-        let (x, calls) = self.fly(tableau, tolerance);
+    fn cell(&self, method: &impl Method<STATES>, tolerance: f64, exact: &State) -> String {
+        let (x, calls) = self.fly(method, tolerance);
         format!("{calls:6}  {:.0e}", error(&x, exact))
     }
 }
@@ -89,26 +122,40 @@ pub fn error(x: &State, exact: &State) -> f64 {
     (0..STATES).map(|i| (x[i] - exact[i]).abs() / (NOMINAL[i] + exact[i].abs())).fold(0.0, f64::max)
 }
 
+/// Far from trim: in incidence, pitch rate and modes.
+fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
+    let mut state = trim.state;
+    for i in RIGID - 2..vehicle.states() {
+        state[i] += DISTURBANCE * NOMINAL[i];
+    }
+    Trim { state, ..*trim }
+}
+
 /// Prints right-hand sides and error of each method for a range of tolerances.
 pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, trim) = ready(&flight)?;
+    let exponential = Exponential::new(vehicle, trim);
     println!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state");
     println!("over its nominal value plus its size\n");
-    for steps in [100, 4] {
-        let problem = Problem::new(vehicle, trim, steps);
-        let (exact, _) = problem.fly(&RKF78, EXACT);
-        let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853"])];
-        for tolerance in TOLERANCES {
-            let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
-            rows.push(vec![
-                format!("{tolerance:.0e}{mark}"),
-                problem.cell(&tableaus::DOPRI5, tolerance, &exact),
-                problem.cell(&RKF78, tolerance, &exact),
-                problem.cell(&DOP853, tolerance, &exact),
-            ]);
+    for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
+        for steps in [100, 4] {
+            let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
+            let (exact, _) = problem.fly(&RKF78, EXACT);
+            let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853", "exponential"])];
+            for tolerance in TOLERANCES {
+                let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
+                rows.push(vec![
+                    format!("{tolerance:.0e}{mark}"),
+                    problem.cell(&tableaus::DOPRI5, tolerance, &exact),
+                    problem.cell(&RKF78, tolerance, &exact),
+                    problem.cell(&DOP853, tolerance, &exact),
+                    problem.cell(&exponential, tolerance, &exact),
+                ]);
+            }
+            let step = FLIGHT_S / steps as f64;
+            println!("From {start}, communication step {step} s\n{}", table(&rows));
         }
-        println!("Communication step {} s\n{}", FLIGHT_S / steps as f64, table(&rows));
     }
     Ok(())
 }

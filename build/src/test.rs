@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
-use crate::{abuse, describe, package};
+use crate::{abuse, bench, describe, package};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
@@ -39,6 +39,7 @@ const STEPS: [Step; 14] = [
     ("Python lints", |_| python_lints()),
     ("FMI headers", |_| fmi_headers()),
     ("FMU tests", |_| python_tests("tests/fmu")),
+    ("bench runs", |_| bench::smoke()),
     WINDOWS,
 ];
 
@@ -162,7 +163,7 @@ fn fmi_headers() -> Result<()> {
     )
 }
 
-/// The interpreter for the tests of the FMU.
-fn python() -> Result<PathBuf> {
+/// The interpreter for the tests of the FMU, and for what is measured in Python.
+pub fn python() -> Result<PathBuf> {
     Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
 }

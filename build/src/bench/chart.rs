@@ -12,7 +12,7 @@ const SIZE: (u32, u32) = (900, 560);
 /// Room for the legend on the right, pixels at scale one.
 const LEGEND: u32 = 190;
 /// As many as there are methods: figure's five, and greys.
-const COLOURS: [RGBColor; 8] = [
+const COLOURS: [RGBColor; 10] = [
     figure::COLOURS[0],
     figure::COLOURS[4],
     figure::COLOURS[1],
@@ -21,6 +21,8 @@ const COLOURS: [RGBColor; 8] = [
     RGBColor(120, 120, 120),
     RGBColor(0, 0, 0),
     RGBColor(170, 140, 90),
+    RGBColor(90, 170, 140),
+    RGBColor(200, 120, 200),
 ];
 
 /// Writes precision.svg and precision.png.

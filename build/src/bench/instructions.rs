@@ -5,6 +5,7 @@ use super::precision::fly;
 use super::report::Report;
 use super::spread::Spread;
 use crate::cli::{Probe, Set};
+use crate::methods::Law;
 use crate::test::works;
 use crate::trim::{flight, model, ready};
 use crate::workspace::target;
@@ -33,7 +34,7 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
         Probe::Steps => {
             for _ in 0..calls / STEPS {
                 flight.rewind(&start)?;
-                fly(&mut flight, STEPS)?;
+                fly(&mut flight, STEPS, &Law::OPEN)?;
             }
         }
     }

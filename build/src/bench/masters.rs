@@ -1,17 +1,15 @@
 //! In FMPy: the FMU, the same interface with steps that do nothing, and the vehicle in Python.
 
 use super::Effort;
-use super::peers::{environment, lines, spread};
+use super::peers::{lines, spread};
 use super::report::Report;
 use crate::package::{self, Targets};
+use crate::test::python;
 use crate::workspace::check;
 use crate::workspace::{cargo, root, target};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
-
-/// FMPy, and what the vehicle in Python needs.
-const PACKAGES: [&str; 4] = ["pythonfmu==0.7.0", "fmpy==0.3.32", "numpy==2.4.6", "scipy==1.17.1"];
 
 /// The library whose steps return at once.
 fn idle() -> Result<PathBuf> {
@@ -37,7 +35,7 @@ fn python_fmu(python: &PathBuf) -> Result<PathBuf> {
 }
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let python = environment("pythonfmu", &PACKAGES)?;
+    let python = python()?;
     let mut command = Command::new(&python);
     command.arg(root().join("build/bench/fmpy_steps.py")).arg((3 * effort.repeats).to_string());
     command.arg(package::fresh(Targets::Possible)?).arg(idle()?);

@@ -6,11 +6,10 @@ use super::spread::Spread;
 use crate::fmu::Fmu;
 use crate::methods::error;
 use crate::package::{self, Targets};
-use crate::workspace::check;
+use crate::test::python;
 use crate::workspace::{root, target};
 use ahv::dynamics::State;
 use anyhow::{Context, Result, anyhow, bail};
-use std::path::PathBuf;
 use std::process::Command;
 
 const LIBRARIES: [&str; 7] = [
@@ -64,31 +63,6 @@ pub fn scipy(effort: &Effort) -> Result<Vec<Point>> {
         .args(&TOLERANCES[..4])
         .output()?;
     lines(output)?.iter().map(|cells| point(cells, cells[6].parse()?)).collect()
-}
-
-/// The Python of the FMU tests.
-pub fn python() -> Result<PathBuf> {
-    let python =
-        target().join("venv").join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    if !python.exists() {
-        bail!("no Python environment yet: run `cargo ahv test` once");
-    }
-    Ok(python)
-}
-
-/// Makes a Python environment with a few packages, once.
-pub fn environment(name: &str, packages: &[&str]) -> Result<PathBuf> {
-    let directory = target().join("bench").join(name);
-    let python = directory.join("bin/python");
-    let complete = directory.join("complete");
-    if !complete.exists() {
-        check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))?;
-        let mut pip = Command::new(&python);
-        pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
-        check(pip.args(packages))?;
-        std::fs::write(complete, packages.join("\n"))?;
-    }
-    Ok(python)
 }
 
 /// Cells of a program's output.

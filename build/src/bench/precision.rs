@@ -1,11 +1,11 @@
 //! Error after one second against the time it takes: an elevator doublet on the flexible vehicle.
 
 use super::Effort;
-use super::peers;
 use super::report::Report;
 use super::spread::{Spread, seconds};
+use super::{crates, peers};
 use crate::cli::Set;
-use crate::methods::{DOUBLET, EXACT, FLIGHT_S, Problem, RKF78, error};
+use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
 use crate::trim::{flight, model, ready};
 use ahv::dop853::DOP853;
 use ahv::dynamics::State;
@@ -31,39 +31,63 @@ pub struct Point {
     pub error: f64,
 }
 
-/// What `cargo ahv fly` does, without the C functions: steps with the doublet.
-pub fn fly(flight: &mut Flight, steps: usize) -> Result<State, ahv::error::Error> {
+/// What `cargo ahv fly` does, without the C functions.
+pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::error::Error> {
     for step in 0..steps {
-        flight.set_input(0, DOUBLET[step * DOUBLET.len() / steps]);
+        flight.set_input(0, law.elevator(step, steps, flight.state()));
         flight.advance(FLIGHT_S * (step + 1) as f64 / steps as f64)?;
     }
     Ok(*flight.state())
 }
 
+/// Our flights at all tolerances, then those with the crate ode_solvers.
+fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Result<Vec<Point>> {
+    let (vehicle, trim) = ready(flight)?;
+    let (vehicle, trim) = (vehicle.clone(), *trim);
+    let problem = Problem::new(&vehicle, &trim, steps, law);
+    let (exact, _) = problem.fly(&RKF78, EXACT);
+    let initial = flight.snapshot();
+    let mut points = Vec::new();
+    for tolerance in TOLERANCES {
+        flight.set_experiment(0.0, tolerance.parse()?);
+        let start = flight.snapshot();
+        let reached = fly(flight, steps, &law)?;
+        let mut again = || flight.rewind(&start).and_then(|()| fly(flight, steps, &law));
+        let seconds = seconds(effort, &mut again);
+        flight.rewind(&initial)?;
+        points.push(Point {
+            method: format!("ours, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
+            tolerance: tolerance.to_string(),
+            seconds,
+            calls: problem.fly(&DOP853, tolerance.parse()?).1,
+            error: error(&reached, &exact),
+        });
+    }
+    for tolerance in TOLERANCES {
+        let fly = || crates::ode_solvers(&vehicle, &trim, steps, &law, tolerance.parse()?);
+        let (reached, calls) = fly()?;
+        points.push(Point {
+            method: format!("ode_solvers, {} ms steps", 1e3 * FLIGHT_S / steps as f64),
+            tolerance: tolerance.to_string(),
+            seconds: seconds(effort, fly),
+            calls,
+            error: error(&reached, &exact),
+        });
+    }
+    Ok(points)
+}
+
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
     let (vehicle, trim) = ready(&flight)?;
-    let (vehicle, trim) = (vehicle.clone(), *trim);
-    let problem = |steps| Problem::new(&vehicle, &trim, steps);
-    let (exact, _) = problem(STEPS[1]).fly(&RKF78, EXACT);
-    let mut points = Vec::new();
-    for steps in STEPS {
-        for tolerance in TOLERANCES {
-            flight.set_experiment(0.0, tolerance.parse()?);
-            let start = flight.snapshot();
-            let reached = fly(&mut flight, steps)?;
-            let seconds =
-                seconds(effort, || flight.rewind(&start).and_then(|()| fly(&mut flight, steps)));
-            flight.rewind(&start)?;
-            let (_, calls) = problem(steps).fly(&DOP853, tolerance.parse()?);
-            points.push(Point {
-                method: format!("ours, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
-                tolerance: tolerance.to_string(),
-                seconds,
-                calls,
-                error: error(&reached, &exact),
-            });
-        }
+    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&RKF78, EXACT).0;
+    let closed = Law::closed(trim);
+    let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
+    points.extend(flights(effort, &mut flight, STEPS[1], Law::OPEN)?);
+    for point in flights(effort, &mut flight, STEPS[0], closed)? {
+        let what = format!("closed loop, 1 s at {}, {}", point.tolerance, point.method);
+        let note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
+        report.line(what, point.seconds.scaled(1e6), "us", note);
     }
     match peers::sundials(effort, &exact) {
         Ok(more) => points.extend(more),

@@ -1,7 +1,7 @@
 //! From nothing to the first step, and the eigenproblem inside it.
 
 use super::Effort;
-use super::peers::{lines, python};
+use super::peers::lines;
 use super::report::Report;
 use super::spread::{Spread, seconds};
 use crate::cli::Set;
@@ -9,6 +9,7 @@ use crate::fmu::Fmu;
 use crate::master::Instance;
 use crate::modes::solved_elements;
 use crate::package::{self, Targets};
+use crate::test::python;
 use crate::trim::{flight, model, ready};
 use crate::workspace::{root, target, write};
 use ahv::flight::DEFAULT_TOLERANCE;
