@@ -13,7 +13,7 @@ use std::time::Instant;
 /// A named step.
 type Step = (&'static str, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 14] = [
+const STEPS: [Step; 15] = [
     ("prerequisites", |_| prerequisites()),
     ("format", |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", |_| {
