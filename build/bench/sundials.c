@@ -4,7 +4,8 @@
  *   DELTA_E  value reference of the elevator; its deviation, rad, is that of `doublet` below
  * Prints for each method and tolerance a line
  *   method;tolerance;median s;least s;largest s;right-hand sides;state...
- * The integrators start anew only where the input jumps. */
+ * The integrators start anew only where the input jumps. Compiled with -DSTATES=<number of continuous
+ * states>. */
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <dlfcn.h>
@@ -17,7 +18,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 #include <time.h>
 
-enum { STATES = 15, QUARTERS = 4, ORDER_8 = 8 };
+enum { QUARTERS = 4, ORDER_8 = 8 };
 static const double doublet[QUARTERS] = {0.0, 0.01, -0.01, 0.0};
 
 /* fmi2FunctionTypes.h, as far as needed. */

@@ -6,10 +6,10 @@ use super::spread::Spread;
 use crate::fmu::Fmu;
 use crate::methods::error;
 use crate::package::{self, Targets};
-use crate::test::python;
 use crate::workspace::{root, target};
-use ahv::dynamics::State;
+use ahv::dynamics::{STATES, State};
 use anyhow::{Context, Result, anyhow, bail};
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const LIBRARIES: [&str; 7] = [
@@ -24,22 +24,28 @@ const LIBRARIES: [&str; 7] = [
 /// A run of SciPy takes seconds.
 const SLOW_REPEATS: usize = 3;
 
-/// CVODE and ARKODE on the Model Exchange functions of the packaged FMU.
-pub fn sundials(effort: &Effort, exact: &State) -> Result<Vec<Point>> {
+/// The program that has CVODE and ARKODE fly, compiled; an error if SUNDIALS is not installed.
+pub fn sundials() -> Result<PathBuf> {
     let program = target().join("bench/sundials");
     std::fs::create_dir_all(target().join("bench"))?;
     let mut compiler = Command::new("cc");
-    compiler.arg("-O2").arg(root().join("build/bench/sundials.c")).arg("-o").arg(&program);
+    compiler.args(["-O2", &format!("-DSTATES={STATES}")]);
+    compiler.arg(root().join("build/bench/sundials.c")).arg("-o").arg(&program);
     compiler.args(LIBRARIES.map(|library| format!("-l{library}")));
     let output = compiler.output().context("there is no C compiler")?;
     if !output.status.success() {
         bail!("build/bench/sundials.c does not build; on Debian: apt-get install libsundials-dev");
     }
+    Ok(program)
+}
+
+/// CVODE and ARKODE on the Model Exchange functions of the packaged FMU.
+pub fn under_sundials(program: &Path, effort: &Effort, exact: &State) -> Result<Vec<Point>> {
     let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
     let elevator = fmu.model.find("delta_e").ok_or_else(|| anyhow!("no elevator"))?;
     let reference = elevator.value_reference.to_string();
     let repeats = (2 * effort.repeats).to_string();
-    let output = Command::new(&program)
+    let output = Command::new(program)
         .arg(&fmu.binary)
         .args([&fmu.model.guid, &fmu.resources(), &reference, &repeats])
         .args(TOLERANCES)
@@ -56,8 +62,8 @@ pub fn sundials(effort: &Effort, exact: &State) -> Result<Vec<Point>> {
 }
 
 /// SciPy on the vehicle of the test oracle.
-pub fn scipy(effort: &Effort) -> Result<Vec<Point>> {
-    let output = Command::new(python()?)
+pub fn under_scipy(python: &Path, effort: &Effort) -> Result<Vec<Point>> {
+    let output = Command::new(python)
         .arg(root().join("build/bench/oracle.py"))
         .arg(effort.repeats.min(SLOW_REPEATS).to_string())
         .args(&TOLERANCES[..4])

@@ -6,6 +6,7 @@ use super::spread::{Spread, seconds};
 use super::{crates, peers};
 use crate::cli::Set;
 use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
+use crate::test::python;
 use crate::trim::{flight, model, ready};
 use ahv::dop853::DOP853;
 use ahv::dynamics::State;
@@ -89,12 +90,13 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         let note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
         report.line(what, point.seconds.scaled(1e6), "us", note);
     }
-    match peers::sundials(effort, &exact) {
-        Ok(more) => points.extend(more),
+    // A peer that is not installed is left out; one that is and fails is an error.
+    match peers::sundials() {
+        Ok(program) => points.extend(peers::under_sundials(&program, effort, &exact)?),
         Err(why) => report.left_out("SUNDIALS", &why),
     }
-    match peers::scipy(effort) {
-        Ok(more) => points.extend(more),
+    match python() {
+        Ok(python) => points.extend(peers::under_scipy(&python, effort)?),
         Err(why) => report.left_out("SciPy", &why),
     }
     let default = points[..TOLERANCES.len()]
