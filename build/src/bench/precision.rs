@@ -85,11 +85,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let closed = Law::closed(trim);
     let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
     points.extend(flights(effort, &mut flight, STEPS[1], Law::OPEN)?);
-    for point in flights(effort, &mut flight, STEPS[0], closed)? {
-        let what = format!("closed loop, 1 s at {}, {}", point.tolerance, point.method);
-        let note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
-        report.line(what, point.seconds.scaled(1e6), "us", note);
-    }
+    compare("closed loop, 1 s", &flights(effort, &mut flight, STEPS[0], closed)?, report);
     // A peer that is not installed is left out; one that is and fails is an error.
     match peers::sundials() {
         Ok(program) => points.extend(peers::under_sundials(&program, effort, &exact)?),
@@ -99,17 +95,23 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         Ok(python) => points.extend(peers::under_scipy(&python, effort)?),
         Err(why) => report.left_out("SciPy", &why),
     }
-    let default = points[..TOLERANCES.len()]
-        .iter()
-        .find(|point| point.tolerance.parse() == Ok(DEFAULT_TOLERANCE))
-        .cloned();
-    let mut methods: Vec<_> = points.iter().map(|point| point.method.clone()).collect();
+    compare("1 s", &points, report);
+    report.points = points;
+    Ok(())
+}
+
+/// A line for each method at the default tolerance, beside the first method of `points`, which is
+/// ours: how long it takes to be as exact.
+fn compare(what: &str, points: &[Point], report: &mut Report) {
+    let default = |point: &&Point| point.tolerance.parse() == Ok(DEFAULT_TOLERANCE);
+    let ours = points.iter().find(default);
+    let mut methods: Vec<_> = points.iter().map(|point| &point.method).collect();
     methods.dedup();
     for method in methods {
-        let own: Vec<_> = points.iter().filter(|point| point.method == method).collect();
-        for point in own.iter().filter(|point| point.tolerance == "1e-8") {
+        let own: Vec<_> = points.iter().filter(|point| point.method == *method).collect();
+        for point in own.iter().copied().filter(default) {
             let mut note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
-            if let Some(ours) = default.as_ref().filter(|ours| ours.method != method) {
+            if let Some(ours) = ours.filter(|ours| ours.method != *method) {
                 match time_for(&own, ours.error) {
                     Some(time) => {
                         let ratio = time / ours.seconds.least;
@@ -118,12 +120,10 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
                     None => note += "; never as exact as ours",
                 }
             }
-            let what = format!("1 s at 1e-8, {method}");
+            let what = format!("{what} at {}, {method}", point.tolerance);
             report.line(what, point.seconds.scaled(1e6), "us", note);
         }
     }
-    report.points = points;
-    Ok(())
 }
 
 /// Seconds for an error: between two points both fall as powers of each other; looser than the
