@@ -4,7 +4,7 @@
 
 use crate::integrate::Tableau;
 
-/// The method of the vehicle.
+/// The method for inputs that move: its twelve stages notice where one of them meets its limit.
 pub const DOP853: Tableau<12> = Tableau {
     a: [
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

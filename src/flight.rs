@@ -7,6 +7,7 @@ mod steered;
 mod tangent;
 
 pub use inputs::{GUST, INPUT_ORDER, INPUTS, Inputs};
+pub use ready::method;
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
@@ -212,26 +213,28 @@ impl Flight {
     ///
     /// # Errors
     /// [`Error::Envelope`] on leaving the region where the curve fits hold, [`Error::Fuel`] when the
-    /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if the tolerance cannot be held.
+    /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if
+    /// the tolerance cannot be held.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
         let Self { ready, state, data, parameters, inputs, .. } = self;
         let ready = Ready::of(ready, state, data, parameters)?;
+        let still = !inputs.moving();
         let steered = Steered {
             vehicle: &ready.vehicle,
             base: ready.base,
             inputs,
-            held: (!inputs.moving())
-                .then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
+            held: still.then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
         };
         let length = end - self.time;
-        let arrival = self.integrator.advance(
-            &DOP853,
-            &steered,
-            state,
-            // Counted from here, so that a late start costs no digits.
-            [0.0, length],
-            &mut self.slope,
-        );
+        // Counted from here, so that a late start costs no digits.
+        let interval = [0.0, length];
+        // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
+        let (integrator, slope) = (&mut self.integrator, &mut self.slope);
+        let arrival = if still {
+            integrator.advance(&mut ready.method, &steered, state, interval, slope)
+        } else {
+            integrator.advance(&mut { DOP853 }, &steered, state, interval, slope)
+        };
         let flown = match arrival {
             Arrival::Complete => length,
             Arrival::Left(flown) | Arrival::Stuck(flown) => flown,

@@ -37,28 +37,37 @@ pub struct Tableau<const S: usize> {
     pub error_order: i32,
 }
 
+/// Estimates of a method's error.
+pub const ESTIMATES: usize = 2;
+
 /// What a trial step comes to.
 pub struct Trial<const N: usize> {
     /// State at its end.
     pub next: [f64; N],
-    /// Estimate of its error, of the higher embedded order, over its length, 1/s.
-    pub high: [f64; N],
-    /// A second estimate of lower order, which steadies the first; zeros for none. 1/s.
-    pub low: [f64; N],
+    /// Derivatives there, if the method needs them.
+    pub slope: Option<[f64; N]>,
+    /// Estimates of its error over its length, 1/s; zeros for none.
+    pub estimates: [[f64; N]; ESTIMATES],
 }
 
 /// A one-step method.
 pub trait Method<const N: usize> {
     /// The estimate falls as h to this power.
     fn error_order(&self) -> i32;
+    /// Longest step, s.
+    fn longest(&self) -> f64 {
+        f64::INFINITY
+    }
     /// A step of length h from t and x, where the derivatives are `slope`.
     fn trial(
-        &self,
+        &mut self,
         system: &impl System<N>,
         x: &[f64; N],
         step: [f64; 2],
         slope: &[f64; N],
     ) -> Trial<N>;
+    /// The error, from the size of each estimate; NaN if one of them is.
+    fn error(&self, estimates: [f64; ESTIMATES]) -> f64;
 }
 
 /// Step control: keeps the proposal for the next step between intervals.
@@ -89,14 +98,13 @@ impl Integrator {
     }
 
     /// Moves `x` from `start` to `end`. `first` holds f(start, x) if the caller knows it; on return
-    /// it holds f at the state reached, if that is known. At the end of the interval it is not: the
-    /// next interval may have other inputs.
+    /// it holds f at the state reached, if the method computes that.
     ///
     /// The rest of the interval is cut into equal steps, none longer than the proposal, so no
     /// sliver is left at its end.
     pub fn advance<const N: usize>(
         &mut self,
-        method: &impl Method<N>,
+        method: &mut impl Method<N>,
         system: &impl System<N>,
         x: &mut [f64; N],
         [start, end]: [f64; 2],
@@ -109,7 +117,7 @@ impl Integrator {
         while t < end {
             let target = end.min(invalid);
             let remaining = target - t;
-            let pieces = libm::ceil(remaining / self.proposal).max(1.0);
+            let pieces = libm::ceil(remaining / self.proposal.min(method.longest())).max(1.0);
             let (mut h, last) = (remaining / pieces, pieces == 1.0);
             let resolution = ROUNDINGS * f64::EPSILON * t.abs();
             if invalid <= end {
@@ -123,7 +131,8 @@ impl Integrator {
                 *first = Some(slope);
                 return Arrival::Stuck(t);
             }
-            let (next, error) = self.step(method, system, x, [t, h], &slope);
+            let trial = method.trial(system, x, [t, h], &slope);
+            let error = self.error(method, system, x, h, &trial);
             // A NaN, from a wild trial state, counts as far too long a step.
             let factor = if error == 0.0 {
                 FACTORS[1]
@@ -138,7 +147,7 @@ impl Integrator {
                 self.proposal = wanted;
                 continue;
             }
-            if !system.holds(t + h, &next) {
+            if !system.holds(t + h, &trial.next) {
                 // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
                 invalid = target.min(t + h);
                 continue;
@@ -146,38 +155,33 @@ impl Integrator {
             // A step cut by the interval's end says nothing against the longer proposal.
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
             t = if last && invalid > end { end } else { t + h };
-            *x = next;
+            *x = trial.next;
+            *first = trial.slope;
             if t < end {
-                slope = system.derivatives(t, x);
+                slope = trial.slope.unwrap_or_else(|| system.derivatives(t, x));
             }
         }
-        *first = None;
         Arrival::Complete
     }
 
-    /// One trial step: the new state and its error over the tolerance.
-    fn step<const N: usize>(
+    /// Error of a trial step of length h from x, over the tolerance.
+    fn error<const N: usize>(
         &self,
         method: &impl Method<N>,
         system: &impl System<N>,
         x: &[f64; N],
-        step: [f64; 2],
-        slope: &[f64; N],
-    ) -> ([f64; N], f64) {
-        let trial = method.trial(system, x, step, slope);
-        let ([_, h], next) = (step, trial.next);
-        let nominal = system.nominal();
-        let (mut high, mut low) = (0.0_f64, 0.0_f64);
+        h: f64,
+        trial: &Trial<N>,
+    ) -> f64 {
+        let (nominal, next) = (system.nominal(), &trial.next);
+        let mut sizes = [0.0; ESTIMATES];
         for i in 0..N {
-            let scale = self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs()));
-            high = worse(high, h * trial.high[i] / scale);
-            low = worse(low, h * trial.low[i] / scale);
+            let scale = h / (self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs())));
+            for (size, estimate) in sizes.iter_mut().zip(&trial.estimates) {
+                *size = worse(*size, scale * estimate[i]);
+            }
         }
-        if high == 0.0 {
-            return (next, 0.0);
-        }
-        // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
-        (next, high * high / libm::sqrt(high * high + 0.01 * low * low))
+        method.error(sizes)
     }
 }
 
@@ -188,7 +192,7 @@ impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
 
     #[inline]
     fn trial(
-        &self,
+        &mut self,
         system: &impl System<N>,
         x: &[f64; N],
         [t, h]: [f64; 2],
@@ -202,7 +206,13 @@ impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
             stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
         }
         let [high, low] = [&self.error, &self.error_low].map(|w| combine(&stages, w));
-        Trial { next: advanced(combine(&stages, &self.b)), high, low }
+        let next = advanced(combine(&stages, &self.b));
+        Trial { next, slope: None, estimates: [high, low] }
+    }
+
+    /// Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
+    fn error(&self, [high, low]: [f64; ESTIMATES]) -> f64 {
+        if high == 0.0 { 0.0 } else { high * high / libm::sqrt(high * high + 0.01 * low * low) }
     }
 }
 

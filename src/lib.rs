@@ -16,6 +16,7 @@
 //! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
+//! | [`exponential`], [`decoupling`], [`blocks`] | the oscillators exactly, the rest as a polynomial | knows no aircraft |
 //! | [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
 //! | [`errata`] | where the paper is wrong or silent, with derivations | |
@@ -30,13 +31,16 @@ pub mod aero;
 pub mod aeroelastic;
 pub mod atmosphere;
 pub mod beam;
+pub mod blocks;
 pub mod burn;
+pub mod decoupling;
 pub mod dop853;
 pub mod dynamics;
 pub mod envelope;
 #[doc = include_str!("data/errata.md")]
 pub mod errata {}
 pub mod error;
+pub mod exponential;
 pub mod flight;
 pub mod fmi;
 pub mod gas;

@@ -1,6 +1,5 @@
 //! Work against precision: what a method costs, in right-hand sides, for the error it makes.
 
-mod exponential;
 mod tableaus;
 
 pub use tableaus::RKF78;
@@ -10,11 +9,10 @@ use crate::table::{row, table};
 use crate::trim::{flight, model, ready};
 use ahv::dop853::DOP853;
 use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
-use ahv::flight::DEFAULT_TOLERANCE;
+use ahv::flight::{DEFAULT_TOLERANCE, method};
 use ahv::integrate::{Arrival, Integrator, Method, System};
 use ahv::trim::Trim;
 use anyhow::Result;
-use exponential::Exponential;
 use std::cell::Cell;
 
 /// Elevator against its trim value, rad, over the quarters of the flight.
@@ -91,7 +89,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Final state and right-hand sides.
-    pub fn fly(&self, method: &impl Method<STATES>, tolerance: f64) -> (State, usize) {
+    pub fn fly(&self, method: &mut impl Method<STATES>, tolerance: f64) -> (State, usize) {
         let calls = Cell::new(0);
         let (mut x, mut slope) = (self.start, None);
         let mut integrator = Integrator::new(tolerance, 1e-3);
@@ -111,7 +109,7 @@ impl<'a> Problem<'a> {
         (x, calls.get())
     }
 
-    fn cell(&self, method: &impl Method<STATES>, tolerance: f64, exact: &State) -> String {
+    fn cell(&self, method: &mut impl Method<STATES>, tolerance: f64, exact: &State) -> String {
         let (x, calls) = self.fly(method, tolerance);
         format!("{calls:6}  {:.0e}", error(&x, exact))
     }
@@ -135,22 +133,22 @@ fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
 pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, trim) = ready(&flight)?;
-    let exponential = Exponential::new(vehicle, trim);
+    let mut exponential = method(vehicle, trim);
     println!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state");
     println!("over its nominal value plus its size\n");
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
             let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
-            let (exact, _) = problem.fly(&RKF78, EXACT);
+            let (exact, _) = problem.fly(&mut { RKF78 }, EXACT);
             let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853", "exponential"])];
             for tolerance in TOLERANCES {
                 let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
                 rows.push(vec![
                     format!("{tolerance:.0e}{mark}"),
-                    problem.cell(&tableaus::DOPRI5, tolerance, &exact),
-                    problem.cell(&RKF78, tolerance, &exact),
-                    problem.cell(&DOP853, tolerance, &exact),
-                    problem.cell(&exponential, tolerance, &exact),
+                    problem.cell(&mut { tableaus::DOPRI5 }, tolerance, &exact),
+                    problem.cell(&mut { RKF78 }, tolerance, &exact),
+                    problem.cell(&mut { DOP853 }, tolerance, &exact),
+                    problem.cell(&mut exponential, tolerance, &exact),
                 ]);
             }
             let step = FLIGHT_S / steps as f64;

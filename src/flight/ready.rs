@@ -1,9 +1,13 @@
 //! What the parameters alone decide: vehicle, trim, and what the inputs are added to.
 
-use crate::dynamics::{Control, FUEL, RIGID, State, Vehicle};
+use crate::decoupling::Decoupling;
+use crate::dynamics::{Control, FUEL, NOMINAL, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
+use crate::exponential::Exponential;
+use crate::linear::Linear;
+use crate::modes::MODES;
 use crate::parameters::{InputMode, Parameters};
-use crate::trim::{Trim, trim};
+use crate::trim::{self, Trim};
 use crate::vehicle::Data;
 
 /// An initialised flight's vehicle.
@@ -13,6 +17,8 @@ pub struct Ready {
     pub trim: Trim,
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
+    /// Integrates between the master's instants.
+    pub method: Exponential<STATES, FAST>,
 }
 
 impl Ready {
@@ -21,7 +27,7 @@ impl Ready {
         let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0 } = *parameters;
         let vehicle = Vehicle::new(data, &build)?;
         let trim = if trimmed {
-            trim(&vehicle, &build.condition)?
+            trim::trim(&vehicle, &build.condition)?
         } else {
             let mut state = build.condition.start(&vehicle.atmosphere);
             state[FUEL] = vehicle.fuel;
@@ -37,7 +43,13 @@ impl Ready {
         };
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
         let base = if deviation { trim.control } else { [0.0; 2] };
-        Ok(Self { vehicle, trim, base })
+        let steady = match trimmed {
+            true => trim,
+            // Of the condition, so that a start from it flies as one with trim does.
+            false => trim::trim(&vehicle, &build.condition).unwrap_or(trim),
+        };
+        let method = method(&vehicle, &steady);
+        Ok(Self { vehicle, trim, base, method })
     }
 
     /// What is in the slot; an empty one is filled, and the state becomes the initial one.
@@ -46,7 +58,7 @@ impl Ready {
         state: &mut State,
         data: &Data,
         parameters: &Parameters,
-    ) -> Result<&'a Self, Error> {
+    ) -> Result<&'a mut Self, Error> {
         match slot {
             Some(ready) => Ok(ready),
             None => {
@@ -56,6 +68,15 @@ impl Ready {
             }
         }
     }
+}
+
+/// Incidence, pitch rate and modes: the states that move fast.
+const FAST: usize = 2 + 2 * MODES;
+
+/// The method for a vehicle, its fast motion decoupled about steady flight.
+pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, FAST> {
+    let jacobian = Linear::new(vehicle, &steady.state, &steady.control).a;
+    Exponential::new(Decoupling::new(&jacobian, RIGID - 2, &NOMINAL))
 }
 
 /// Start values without trim, by the names of their parameters.

@@ -1,7 +1,7 @@
 //! Shared by the integration tests.
 #![allow(dead_code, missing_docs)]
 
-use ahv::dynamics::Vehicle;
+use ahv::dynamics::{NOMINAL, STATES, State, Vehicle};
 use ahv::flight::Flight;
 use ahv::parameters::Parameters;
 use ahv::vehicle::{AeroSet, Build, Configuration, Data};
@@ -48,6 +48,11 @@ pub fn flight(configuration: Configuration) -> Flight {
 /// |a - b| relative to the larger of |b| and `floor`.
 pub fn deviation(a: f64, b: f64, floor: f64) -> f64 {
     (a - b).abs() / b.abs().max(floor)
+}
+
+/// Largest deviation of a state, with its typical size for floor.
+pub fn distance(a: &State, b: &State) -> f64 {
+    (0..STATES).map(|i| deviation(a[i], b[i], NOMINAL[i])).fold(0.0, f64::max)
 }
 
 pub fn assert_close(what: &str, got: f64, expected: f64, tolerance: f64) {

@@ -8,9 +8,8 @@ use crate::cli::Set;
 use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
 use crate::test::python;
 use crate::trim::{flight, model, ready};
-use ahv::dop853::DOP853;
 use ahv::dynamics::State;
-use ahv::flight::{DEFAULT_TOLERANCE, Flight};
+use ahv::flight::{DEFAULT_TOLERANCE, Flight, method};
 use anyhow::Result;
 use serde::Serialize;
 
@@ -46,7 +45,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
     let (vehicle, trim) = ready(flight)?;
     let (vehicle, trim) = (vehicle.clone(), *trim);
     let problem = Problem::new(&vehicle, &trim, steps, law);
-    let (exact, _) = problem.fly(&RKF78, EXACT);
+    let (exact, _) = problem.fly(&mut { RKF78 }, EXACT);
     let initial = flight.snapshot();
     let mut points = Vec::new();
     for tolerance in TOLERANCES {
@@ -60,7 +59,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
             method: format!("ours, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
             tolerance: tolerance.to_string(),
             seconds,
-            calls: problem.fly(&DOP853, tolerance.parse()?).1,
+            calls: problem.fly(&mut method(&vehicle, &trim), tolerance.parse()?).1,
             error: error(&reached, &exact),
         });
     }
@@ -81,7 +80,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
     let (vehicle, trim) = ready(&flight)?;
-    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&RKF78, EXACT).0;
+    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut { RKF78 }, EXACT).0;
     let closed = Law::closed(trim);
     let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
     points.extend(flights(effort, &mut flight, STEPS[1], Law::OPEN)?);

@@ -1,4 +1,4 @@
-//! Methods that lost: Runge-Kutta pairs to compare DOP853 with.
+//! Methods that lost: Runge-Kutta pairs to compare the vehicle's own methods with.
 
 use ahv::integrate::Tableau;
 
