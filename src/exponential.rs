@@ -225,22 +225,20 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
             next[i] += left * rates[i];
         }
         let end = system.derivatives(t + h, &next);
-        // D at the end less D of the last stage.
-        let own = linear.to_states(&blocks.times(&difference_of(&moved, &before)));
-        let stages = std::array::from_fn(|i| STAGE_SHARE * (end[i] - rates[i] - own[i]));
-        let [cubic, parabola] = DIFFERENCES.map(|weights| {
-            linear.to_states(&std::array::from_fn(|i| {
-                (0..STAGES).map(|stage| weights[stage] * rest[stage][i]).sum()
-            }))
+        // What the quadrature misses, in the coordinates, and D at the end less D of the last stage.
+        let [cubic, parabola]: [[f64; N]; 2] = DIFFERENCES.map(|weights| {
+            std::array::from_fn(|i| (0..STAGES).map(|stage| weights[stage] * rest[stage][i]).sum())
         });
-        let quadrature = std::array::from_fn(|i| {
+        let own = blocks.times(&difference_of(&moved, &before));
+        let missed = linear.to_states(&std::array::from_fn(|i| {
             let falls = (cubic[i] / parabola[i]).abs();
-            cubic[i] * (QUADRATURE * falls).min(1.0)
-        });
-        Trial { next, slope: Some(end), estimates: [stages, quadrature] }
+            cubic[i] * (QUADRATURE * falls).min(1.0) - STAGE_SHARE * own[i]
+        }));
+        let error = std::array::from_fn(|i| missed[i] + STAGE_SHARE * (end[i] - rates[i]));
+        Trial { next, slope: Some(end), estimates: [error, [0.0; N]] }
     }
 
-    fn error(&self, [stages, quadrature]: [f64; ESTIMATES]) -> f64 {
-        if quadrature > stages || quadrature.is_nan() { quadrature } else { stages }
+    fn error(&self, [error, _]: [f64; ESTIMATES]) -> f64 {
+        error
     }
 }
