@@ -113,11 +113,9 @@ impl Atmosphere {
             value if value >= 0.0 => geopotential,
             _ => S::constant(0.0),
         };
-        let layer = self.layers[..self.count]
-            .iter()
-            .rev()
-            .find(|layer| layer.base_m <= clamped.value())
-            .unwrap_or(&self.layers[0]);
+        let above = self.layers[1..self.count].iter();
+        let below = above.take_while(|layer| layer.base_m <= clamped.value()).count();
+        let layer = &self.layers[below];
         (layer, clamped - layer.base_m)
     }
 

@@ -233,8 +233,8 @@ impl Vehicle {
             sum[i] = sum[i] + force * air[i] - stiffness;
         }
         for k in 0..MODES {
-            let damping = std::array::from_fn(|i| -airframe.damping[i][k]);
-            add(&mut sum, x[RIGID + 2 * k + 1], &damping);
+            let damping = std::array::from_fn(|i| airframe.damping[i][k]);
+            add(&mut sum, -x[RIGID + 2 * k + 1], &damping);
         }
         sum
     }

@@ -29,6 +29,15 @@ const NODES: [f64; STAGES] = [2.0 / 3.0 * LOBATTO[0], LOBATTO[0], LOBATTO[1], 1.
 const SOURCES: [&[usize]; STAGES + 1] = [&[], &[0], &[0, 1], &[1, 2], &[1, 2, 3]];
 /// Most sources of a stage.
 const DEGREE: usize = 3;
+/// One weight for f(x0) in each row of [`SOURCES`], and one for each source.
+const WEIGHTS: usize = {
+    let (mut weights, mut row) = (0, 0);
+    while row < SOURCES.len() {
+        weights += 1 + SOURCES[row].len();
+        row += 1;
+    }
+    weights
+};
 /// The stages' errors in the error of the step, over the error of D in the last stage. It is 0.68 for
 /// short steps; with this the error found stays below the one that is asked for.
 const STAGE_SHARE: f64 = 2.0;
@@ -39,13 +48,6 @@ const QUADRATURE: f64 = 0.5;
 /// Longest step, rad of the fastest oscillator: the cubic is to follow D at its frequency.
 const LONGEST: f64 = 2.0;
 
-/// What a stage takes of f(x0) and of D of each source.
-#[derive(Debug, Clone, Copy)]
-struct Weights<const N: usize> {
-    slope: Function<N>,
-    rest: [Function<N>; DEGREE],
-}
-
 /// The method with the oscillators of one system.
 #[derive(Debug, Clone)]
 pub struct Exponential<const N: usize, const F: usize> {
@@ -53,15 +55,15 @@ pub struct Exponential<const N: usize, const F: usize> {
     longest: f64,
     /// Length of step for which the weights are, s.
     length: f64,
-    weights: [Weights<N>; STAGES + 1],
+    /// What each stage, and the step itself, takes of f(x0), then of D of each source.
+    weights: [Function<N>; WEIGHTS],
 }
 
 impl<const N: usize, const F: usize> Exponential<N, F> {
     /// The method that takes this part of the motion exactly.
     pub fn new(linear: Decoupling<N, F>) -> Self {
-        let none = Weights { slope: Function::ZERO, rest: [Function::ZERO; DEGREE] };
         let longest = LONGEST / linear.blocks.fastest();
-        Self { linear, longest, length: 0.0, weights: [none; STAGES + 1] }
+        Self { linear, longest, length: 0.0, weights: [Function::ZERO; WEIGHTS] }
     }
 
     /// Makes the weights those of a step of this length.
@@ -70,19 +72,23 @@ impl<const N: usize, const F: usize> Exponential<N, F> {
             return;
         }
         self.length = length;
-        let (mut pushed, mut known) = ([Function::ZERO; PHIS], 0.0);
+        let (mut pushed, mut known, mut next) = ([Function::ZERO; PHIS], 0.0, 0);
         for (stage, sources) in SOURCES.iter().enumerate() {
             let end = *NODES.get(stage).unwrap_or(&1.0);
             if end != known {
                 (pushed, known) = (moments(&self.linear.blocks, length, end), end);
             }
-            let weights = &mut self.weights[stage];
-            weights.slope = pushed[0];
-            for (&own, weight) in sources.iter().zip(&mut weights.rest) {
-                *weight = Function::ZERO;
+            let mut take = |weight| {
+                self.weights[next] = weight;
+                next += 1;
+            };
+            take(pushed[0]);
+            for &own in *sources {
+                let mut weight = Function::ZERO;
                 for (factor, moment) in course(sources, own).iter().zip(&pushed[1..]) {
                     weight.add(*factor, moment);
                 }
+                take(weight);
             }
         }
     }
@@ -204,11 +210,12 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
         let mut rest = [[0.0; N]; STAGES];
         let mut moved = [0.0; N];
         let mut last = ([0.0; N], *slope);
-        for (stage, weights) in self.weights.iter().enumerate() {
+        let mut weights = self.weights.iter();
+        for (stage, sources) in SOURCES.iter().enumerate() {
             let mut sum = Sum { one: [0.0; N], linear: [0.0; N] };
-            sum.add(&weights.slope, &pull);
-            for (&source, weight) in SOURCES[stage].iter().zip(&weights.rest) {
-                sum.add(weight, &rest[source]);
+            let vectors = std::iter::once(&pull).chain(sources.iter().map(|&source| &rest[source]));
+            for (vector, weight) in vectors.zip(&mut weights) {
+                sum.add(weight, vector);
             }
             moved = sum.of(blocks);
             if let Some(node) = NODES.get(stage) {

@@ -15,21 +15,33 @@ pub struct Linear {
     pub c: DMatrix<f64>,
 }
 
-const DIRECTIONS: usize = STATES + CONTROLS;
 /// Rows of the state that are the outputs V and gamma.
 pub const OUTPUT_STATES: [usize; 2] = [0, 2];
+
+/// Time derivatives in still air and how they change along a direction, of [value, direction]; exact by
+/// dual numbers. One direction at a time: many at once are quicker, but double the library.
+pub fn along(vehicle: &Vehicle, [x, dx]: [&State; 2], [u, du]: [&Control; 2]) -> State<Dual<1>> {
+    let x = std::array::from_fn(|i| Dual { re: x[i], eps: [dx[i]] });
+    let u = std::array::from_fn(|i| Dual { re: u[i], eps: [du[i]] });
+    vehicle.derivatives(&x, &u, Dual::constant(0.0))
+}
 
 impl Linear {
     /// Exact derivatives by dual numbers.
     pub fn new(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
-        let x: State<Dual<DIRECTIONS>> = std::array::from_fn(|i| Dual::variable(state[i], i));
-        let u: Control<Dual<DIRECTIONS>> =
-            std::array::from_fn(|i| Dual::variable(control[i], STATES + i));
-        let rates = vehicle.derivatives(&x, &u, Dual::constant(0.0));
+        let rates = |direction: usize| {
+            let dx = std::array::from_fn(|i| f64::from(i == direction));
+            let du = std::array::from_fn(|i| f64::from(STATES + i == direction));
+            along(vehicle, [state, &dx], [control, &du]).map(|rate| rate.eps[0])
+        };
         let n = vehicle.states();
+        let columns = |first: usize, count: usize| {
+            let columns: Vec<State> = (first..first + count).map(rates).collect();
+            DMatrix::from_fn(n, count, |row, column| columns[column][row])
+        };
         Self {
-            a: DMatrix::from_fn(n, n, |row, column| rates[row].eps[column]),
-            b: DMatrix::from_fn(n, CONTROLS, |row, column| rates[row].eps[STATES + column]),
+            a: columns(0, n),
+            b: columns(STATES, CONTROLS),
             c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| {
                 f64::from(OUTPUT_STATES[row] == column)
             }),

@@ -1,10 +1,11 @@
 //! Trim: the controls and static deflections of steady flight.
 
 use crate::atmosphere::Atmosphere;
-use crate::dynamics::{CONTROLS, Control, FUEL, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{Control, FUEL, RIGID, STATES, State, Vehicle};
 use crate::error::Error;
+use crate::linear::along;
 use crate::modes::MODES;
-use crate::scalar::{Dual, Scalar};
+use crate::scalar::Dual;
 use nalgebra::{SMatrix, SVector};
 
 /// Flight condition to be held.
@@ -49,16 +50,17 @@ impl Condition {
     }
 }
 
-fn insert<const N: usize>(x: &mut State<Dual<N>>, u: &mut Control<Dual<N>>, z: &[Dual<N>]) {
+type Vector = SVector<f64, UNKNOWNS>;
+
+/// A state and its controls, from the unknowns and from what is known of the state.
+fn insert(known: &State, z: &Vector) -> (State, Control) {
+    let mut x = *known;
     x[3] = z[0];
-    u[0] = z[1];
-    u[1] = z[2];
     for i in 0..MODES {
         x[RIGID + 2 * i] = z[3 + i];
     }
+    (x, [z[1], z[2]])
 }
-
-type Vector = SVector<f64, UNKNOWNS>;
 
 /// Scaled residual of the trim equations and its exact Jacobian.
 fn residual(
@@ -66,25 +68,21 @@ fn residual(
     start: &State,
     z: &Vector,
 ) -> (Vector, SMatrix<f64, UNKNOWNS, UNKNOWNS>) {
-    let variables: [Dual<UNKNOWNS>; UNKNOWNS] = std::array::from_fn(|i| Dual::variable(z[i], i));
-    let mut x = start.map(|value| Dual { re: value, eps: [0.0; UNKNOWNS] });
-    let mut u = [Dual { re: 0.0, eps: [0.0; UNKNOWNS] }; CONTROLS];
-    insert(&mut x, &mut u, &variables);
-    let rates = vehicle.derivatives(&x, &u, Dual::constant(0.0));
-
-    let mut value = Vector::zeros();
-    let mut jacobian = SMatrix::identity();
-    let mut put = |row: usize, rate: Dual<UNKNOWNS>, scale: f64| {
-        value[row] = rate.re / scale;
-        for (column, slope) in rate.eps.iter().enumerate() {
-            jacobian[(row, column)] = slope / scale;
+    let (x, u) = insert(start, z);
+    let (mut value, mut jacobian) = (Vector::zeros(), SMatrix::identity());
+    for column in 0..UNKNOWNS {
+        let (dx, du) = insert(&[0.0; STATES], &Vector::from_fn(|i, _| f64::from(i == column)));
+        let rates = along(vehicle, [&x, &dx], [&u, &du]);
+        let mut put = |row: usize, rate: Dual<1>, scale: f64| {
+            value[row] = rate.re / scale;
+            jacobian[(row, column)] = rate.eps[0] / scale;
+        };
+        for (row, (state, scale)) in BALANCES.into_iter().enumerate() {
+            put(row, rates[state], scale);
         }
-    };
-    for (row, (state, scale)) in BALANCES.into_iter().enumerate() {
-        put(row, rates[state], scale);
-    }
-    for i in 0..vehicle.modes {
-        put(3 + i, rates[RIGID + 2 * i + 1], vehicle.omega[i] * vehicle.omega[i]);
+        for i in 0..vehicle.modes {
+            put(3 + i, rates[RIGID + 2 * i + 1], vehicle.omega[i] * vehicle.omega[i]);
+        }
     }
     (value, jacobian)
 }
