@@ -213,9 +213,10 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
         let mut weights = self.weights.iter();
         for (stage, sources) in SOURCES.iter().enumerate() {
             let mut sum = Sum { one: [0.0; N], linear: [0.0; N] };
-            let vectors = std::iter::once(&pull).chain(sources.iter().map(|&source| &rest[source]));
-            for (vector, weight) in vectors.zip(&mut weights) {
-                sum.add(weight, vector);
+            let mut take = |x| weights.next().map(|weight| sum.add(weight, x));
+            take(&pull);
+            for &source in *sources {
+                take(&rest[source]);
             }
             moved = sum.of(blocks);
             if let Some(node) = NODES.get(stage) {
