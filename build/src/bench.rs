@@ -3,6 +3,8 @@
 
 mod chart;
 mod crates;
+#[cfg(feature = "diffsol")]
+mod diffsol;
 mod ensemble;
 mod instructions;
 mod masters;

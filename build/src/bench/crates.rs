@@ -6,6 +6,18 @@ use ahv::trim::Trim;
 use anyhow::Result;
 use ode_solvers::{Dop853, OutputType, SVector, System};
 
+/// Final state and right-hand sides of a flight in equal communication steps, at a tolerance.
+pub type Fly = fn(&Vehicle, &Trim, usize, &Law, f64) -> Result<(State, usize)>;
+
+/// The crates, by the names of their methods.
+pub const CRATES: &[(&str, Fly)] = &[
+    ("ode_solvers", ode_solvers),
+    #[cfg(feature = "diffsol")]
+    ("diffsol tsit45", super::diffsol::tsit45),
+    #[cfg(feature = "diffsol")]
+    ("diffsol BDF", super::diffsol::bdf),
+];
+
 /// The state over its nominal values, so that one absolute tolerance is that of our flights.
 type Scaled = SVector<f64, STATES>;
 
@@ -23,7 +35,7 @@ impl System<f64, Scaled> for Held<'_> {
 }
 
 /// Final state and right-hand sides; the integration starts anew at each communication point.
-pub fn ode_solvers(
+fn ode_solvers(
     vehicle: &Vehicle,
     trim: &Trim,
     steps: usize,
