@@ -9,6 +9,12 @@ pub struct Blocks<const N: usize> {
     own: [f64; N],
     /// In each row, the entry in the column of the paired state.
     cross: [f64; N],
+    /// Sum of the eigenvalues of each state's block.
+    sum: [f64; N],
+    /// Their product.
+    product: [f64; N],
+    /// Largest magnitude of an eigenvalue.
+    pub fastest: f64,
 }
 
 /// Each state's partner in its place.
@@ -22,10 +28,18 @@ impl<const N: usize> Blocks<N> {
     /// The blocks of a matrix, whose other entries are left out.
     pub fn of(matrix: impl Fn(usize, usize) -> f64) -> Self {
         let partners: [usize; N] = swapped(&std::array::from_fn(|i| i));
-        Self {
-            own: std::array::from_fn(|i| matrix(i, i)),
-            cross: std::array::from_fn(|i| matrix(i, partners[i])),
-        }
+        let own = std::array::from_fn(|i| matrix(i, i));
+        let cross = std::array::from_fn(|i| matrix(i, partners[i]));
+        let [other, back] = [swapped(&own), swapped(&cross)];
+        let sum: [f64; N] = std::array::from_fn(|i| own[i] + other[i]);
+        let product: [f64; N] = std::array::from_fn(|i| own[i] * other[i] - cross[i] * back[i]);
+        let largest = |(sum, product): (&f64, &f64)| {
+            let half = 0.5 * sum.abs();
+            let apart = half * half - product;
+            if apart < 0.0 { libm::sqrt(*product) } else { half + libm::sqrt(apart) }
+        };
+        let fastest = sum.iter().zip(&product).map(largest).fold(0.0, f64::max);
+        Self { own, cross, sum, product, fastest }
     }
 
     /// L x.
@@ -33,26 +47,6 @@ impl<const N: usize> Blocks<N> {
     pub fn times(&self, x: &[f64; N]) -> [f64; N] {
         let partner = swapped(x);
         std::array::from_fn(|i| self.own[i] * x[i] + self.cross[i] * partner[i])
-    }
-
-    /// Sum of the eigenvalues of each state's block, and their product.
-    fn invariants(&self) -> [[f64; N]; 2] {
-        let [own, cross] = [swapped(&self.own), swapped(&self.cross)];
-        [
-            std::array::from_fn(|i| self.own[i] + own[i]),
-            std::array::from_fn(|i| self.own[i] * own[i] - self.cross[i] * cross[i]),
-        ]
-    }
-
-    /// Largest magnitude of an eigenvalue.
-    pub fn fastest(&self) -> f64 {
-        let [sum, product] = self.invariants();
-        let of_block = |(sum, product): (&f64, &f64)| {
-            let half = 0.5 * sum.abs();
-            let apart = half * half - product;
-            if apart < 0.0 { libm::sqrt(*product) } else { half + libm::sqrt(apart) }
-        };
-        sum.iter().zip(&product).map(of_block).fold(0.0, f64::max)
     }
 }
 
@@ -70,9 +64,13 @@ impl<const N: usize> Function<N> {
     /// Zero.
     pub const ZERO: Self = Self { one: [0.0; N], linear: [0.0; N] };
 
-    fn scale(&mut self, factor: f64) {
-        self.one = self.one.map(|multiple| multiple * factor);
-        self.linear = self.linear.map(|multiple| multiple * factor);
+    /// `factor` times the function.
+    #[inline]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            one: self.one.map(|multiple| multiple * factor),
+            linear: self.linear.map(|multiple| multiple * factor),
+        }
     }
 
     /// Adds `factor` times another function.
@@ -93,14 +91,13 @@ const NEGLIGIBLE: f64 = 1e-18;
 /// phi_k(t L) for k = 1 to 4, where phi_k(z) = sum over n of z^n / (n + k)!; by their series, which
 /// keep their digits while t L stays below about 4.
 pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [Function<N>; PHIS] {
-    let [sum, product] = blocks.invariants();
-    let (sum, product) = (sum.map(|s| s * t), product.map(|p| p * t * t));
+    let (sum, product) = (blocks.sum.map(|s| s * t), blocks.product.map(|p| p * t * t));
     // In multiples of one and z = t L: `factor` z f + `shift`.
     let climb = |f: &Function<N>, factor: f64, shift: f64| Function {
         one: std::array::from_fn(|i| shift - factor * product[i] * f.linear[i]),
         linear: std::array::from_fn(|i| factor * (f.one[i] + sum[i] * f.linear[i])),
     };
-    let (size, mut term, mut last) = (t * blocks.fastest(), 1.0, PHIS);
+    let (size, mut term, mut last) = (t * blocks.fastest, 1.0, PHIS);
     while term > NEGLIGIBLE {
         last += 1;
         term *= size / last as f64;
@@ -113,8 +110,7 @@ pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [Function<N>; PHIS] {
     let third = climb(&fourth, 1.0 / 24.0, 1.0 / 6.0);
     let second = climb(&third, 1.0, 0.5);
     let first = climb(&second, 1.0, 1.0);
-    fourth.scale(1.0 / 24.0);
-    [first, second, third, fourth].map(|mut phi| {
+    [first, second, third, fourth.scaled(1.0 / 24.0)].map(|mut phi| {
         phi.linear = phi.linear.map(|multiple| multiple * t);
         phi
     })

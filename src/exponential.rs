@@ -16,7 +16,7 @@
 
 use crate::blocks::{Blocks, Function, PHIS, phis};
 use crate::decoupling::Decoupling;
-use crate::integrate::{ESTIMATES, Method, System, Trial};
+use crate::integrate::{Method, System, Trial};
 
 /// Stages after the first.
 const STAGES: usize = 4;
@@ -62,7 +62,7 @@ pub struct Exponential<const N: usize, const F: usize> {
 impl<const N: usize, const F: usize> Exponential<N, F> {
     /// The method that takes this part of the motion exactly.
     pub fn new(linear: Decoupling<N, F>) -> Self {
-        let longest = LONGEST / linear.blocks.fastest();
+        let longest = LONGEST / linear.blocks.fastest;
         Self { linear, longest, length: 0.0, weights: [Function::ZERO; WEIGHTS] }
     }
 
@@ -107,9 +107,7 @@ fn moments<const N: usize>(linear: &Blocks<N>, h: f64, end: f64) -> [Function<N>
     let phis = phis(linear, end * h);
     std::array::from_fn(|k| {
         factor *= end * k.max(1) as f64;
-        let mut moment = Function::ZERO;
-        moment.add(factor, &phis[k]);
-        moment
+        phis[k].scaled(factor)
     })
 }
 
@@ -242,11 +240,7 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
             let falls = (cubic[i] / parabola[i]).abs();
             cubic[i] * (QUADRATURE * falls).min(1.0) - STAGE_SHARE * own[i]
         }));
-        let error = std::array::from_fn(|i| missed[i] + STAGE_SHARE * (end[i] - rates[i]));
-        Trial { next, slope: Some(end), estimates: [error, [0.0; N]] }
-    }
-
-    fn error(&self, [error, _]: [f64; ESTIMATES]) -> f64 {
-        error
+        let high = std::array::from_fn(|i| missed[i] + STAGE_SHARE * (end[i] - rates[i]));
+        Trial { next, slope: Some(end), high, low: [0.0; N] }
     }
 }

@@ -218,22 +218,22 @@ impl Flight {
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
         let Self { ready, state, data, parameters, inputs, .. } = self;
         let ready = Ready::of(ready, state, data, parameters)?;
-        let still = !inputs.moving();
         let steered = Steered {
             vehicle: &ready.vehicle,
             base: ready.base,
             inputs,
-            held: still.then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
+            held: (!inputs.moving())
+                .then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
         };
         let length = end - self.time;
         // Counted from here, so that a late start costs no digits.
         let interval = [0.0, length];
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
-        let arrival = if still {
+        let arrival = if steered.held.is_some() {
             integrator.advance(&mut ready.method, &steered, state, interval, slope)
         } else {
-            integrator.advance(&mut { DOP853 }, &steered, state, interval, slope)
+            integrator.advance(&mut &DOP853, &steered, state, interval, slope)
         };
         let flown = match arrival {
             Arrival::Complete => length,

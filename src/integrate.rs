@@ -37,17 +37,16 @@ pub struct Tableau<const S: usize> {
     pub error_order: i32,
 }
 
-/// Estimates of a method's error.
-pub const ESTIMATES: usize = 2;
-
 /// What a trial step comes to.
 pub struct Trial<const N: usize> {
     /// State at its end.
     pub next: [f64; N],
     /// Derivatives there, if the method needs them.
     pub slope: Option<[f64; N]>,
-    /// Estimates of its error over its length, 1/s; zeros for none.
-    pub estimates: [[f64; N]; ESTIMATES],
+    /// Estimate of its error, of the higher embedded order, over its length, 1/s.
+    pub high: [f64; N],
+    /// A second estimate of lower order, which steadies the first; zeros for none. 1/s.
+    pub low: [f64; N],
 }
 
 /// A one-step method.
@@ -66,8 +65,6 @@ pub trait Method<const N: usize> {
         step: [f64; 2],
         slope: &[f64; N],
     ) -> Trial<N>;
-    /// The error, from the size of each estimate; NaN if one of them is.
-    fn error(&self, estimates: [f64; ESTIMATES]) -> f64;
 }
 
 /// Step control: keeps the proposal for the next step between intervals.
@@ -132,7 +129,7 @@ impl Integrator {
                 return Arrival::Stuck(t);
             }
             let trial = method.trial(system, x, [t, h], &slope);
-            let error = self.error(method, system, x, h, &trial);
+            let error = self.error(system, x, h, &trial);
             // A NaN, from a wild trial state, counts as far too long a step.
             let factor = if error == 0.0 {
                 FACTORS[1]
@@ -167,25 +164,27 @@ impl Integrator {
     /// Error of a trial step of length h from x, over the tolerance.
     fn error<const N: usize>(
         &self,
-        method: &impl Method<N>,
         system: &impl System<N>,
         x: &[f64; N],
         h: f64,
         trial: &Trial<N>,
     ) -> f64 {
         let (nominal, next) = (system.nominal(), &trial.next);
-        let mut sizes = [0.0; ESTIMATES];
+        let (mut high, mut low) = (0.0_f64, 0.0_f64);
         for i in 0..N {
             let scale = h / (self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs())));
-            for (size, estimate) in sizes.iter_mut().zip(&trial.estimates) {
-                *size = worse(*size, scale * estimate[i]);
-            }
+            high = worse(high, scale * trial.high[i]);
+            low = worse(low, scale * trial.low[i]);
         }
-        method.error(sizes)
+        if low == 0.0 {
+            return high;
+        }
+        // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
+        high * high / libm::sqrt(high * high + 0.01 * low * low)
     }
 }
 
-impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
+impl<const N: usize, const S: usize> Method<N> for &Tableau<S> {
     fn error_order(&self) -> i32 {
         self.error_order
     }
@@ -207,12 +206,7 @@ impl<const N: usize, const S: usize> Method<N> for Tableau<S> {
         }
         let [high, low] = [&self.error, &self.error_low].map(|w| combine(&stages, w));
         let next = advanced(combine(&stages, &self.b));
-        Trial { next, slope: None, estimates: [high, low] }
-    }
-
-    /// Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
-    fn error(&self, [high, low]: [f64; ESTIMATES]) -> f64 {
-        if high == 0.0 { 0.0 } else { high * high / libm::sqrt(high * high + 0.01 * low * low) }
+        Trial { next, slope: None, high, low }
     }
 }
 

@@ -53,7 +53,7 @@ impl System<1> for Clock {
 fn swing(system: &Oscillator, tolerance: f64, ends: &[f64]) -> [f64; 2] {
     let (mut integrator, mut x, mut t) = (Integrator::new(tolerance, 1e-3), [1.0, 0.0], 0.0);
     for &end in ends {
-        let arrival = integrator.advance(&mut { DOP853 }, system, &mut x, [t, end], &mut None);
+        let arrival = integrator.advance(&mut &DOP853, system, &mut x, [t, end], &mut None);
         assert_eq!(arrival, Arrival::Complete);
         t = end;
     }
@@ -85,7 +85,7 @@ fn verif_the_method_converges_with_order_eight() {
         let system = oscillator(6.0, f64::NEG_INFINITY);
         let (mut integrator, mut x, mut t) = (Integrator::new(1e9, 1.0), [1.0, 0.0], 0.0);
         for end in ends {
-            integrator.advance(&mut { DOP853 }, &system, &mut x, [t, end], &mut None);
+            integrator.advance(&mut &DOP853, &system, &mut x, [t, end], &mut None);
             t = end;
         }
         (x[0] - 6.0_f64.cos()).abs()
@@ -112,7 +112,7 @@ fn verif_the_error_follows_the_tolerance() {
 #[test]
 fn verif_time_reaches_the_right_hand_side() {
     let (mut integrator, mut x) = (Integrator::new(1e-12, 0.1), [0.0]);
-    integrator.advance(&mut { DOP853 }, &Clock, &mut x, [0.5, 2.0], &mut None);
+    integrator.advance(&mut &DOP853, &Clock, &mut x, [0.5, 2.0], &mut None);
     assert!((x[0] - (2.0_f64.sin() - 0.5_f64.sin())).abs() < 1e-11);
 }
 
@@ -120,12 +120,12 @@ fn verif_time_reaches_the_right_hand_side() {
 fn verif_known_slopes_are_not_computed_again() {
     let system = oscillator(1.0, f64::NEG_INFINITY);
     let (mut integrator, mut x, mut slope) = (Integrator::new(1e-6, 1.0), [1.0, 0.0], None);
-    integrator.advance(&mut { DOP853 }, &system, &mut x, [0.0, 0.01], &mut slope);
+    integrator.advance(&mut &DOP853, &system, &mut x, [0.0, 0.01], &mut slope);
     assert_eq!(system.calls.get(), 12);
-    integrator.advance(&mut { DOP853 }, &system, &mut x, [0.01, 0.02], &mut slope);
+    integrator.advance(&mut &DOP853, &system, &mut x, [0.01, 0.02], &mut slope);
     assert_eq!(system.calls.get(), 24);
     slope = Some(system.derivatives(0.02, &x));
-    integrator.advance(&mut { DOP853 }, &system, &mut x, [0.02, 0.03], &mut slope);
+    integrator.advance(&mut &DOP853, &system, &mut x, [0.02, 0.03], &mut slope);
     assert_eq!(system.calls.get(), 25 + 11);
 }
 
@@ -135,7 +135,7 @@ fn verif_leaving_is_located() {
     for proposal in [1e-3, 0.3, 10.0] {
         let system = oscillator(1.0, 0.5);
         let (mut integrator, mut x) = (Integrator::new(1e-10, proposal), [1.0, 0.0]);
-        let arrival = integrator.advance(&mut { DOP853 }, &system, &mut x, [0.0, 5.0], &mut None);
+        let arrival = integrator.advance(&mut &DOP853, &system, &mut x, [0.0, 5.0], &mut None);
         let Arrival::Left(t) = arrival else { panic!("{arrival:?}") };
         assert!((t - std::f64::consts::FRAC_PI_3).abs() < 2e-9, "left at {t}");
         assert!(x[0] >= 0.5);
@@ -157,7 +157,7 @@ fn verif_an_infinite_right_hand_side_is_reported() {
         }
     }
     let (mut integrator, mut x) = (Integrator::new(1e-8, 0.1), [0.0]);
-    let arrival = integrator.advance(&mut { DOP853 }, &Wall, &mut x, [0.0, 1.0], &mut None);
+    let arrival = integrator.advance(&mut &DOP853, &Wall, &mut x, [0.0, 1.0], &mut None);
     let Arrival::Stuck(t) = arrival else { panic!("{arrival:?}") };
     assert!((t - 0.25).abs() < 1e-6 && (x[0] - t).abs() < 1e-9);
 }

@@ -14,6 +14,7 @@ use ahv::integrate::{Arrival, Integrator, Method, System};
 use ahv::trim::Trim;
 use anyhow::Result;
 use std::cell::Cell;
+use std::convert::Infallible;
 
 /// Elevator against its trim value, rad, over the quarters of the flight.
 pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
@@ -53,9 +54,10 @@ impl Law {
     }
 }
 
-struct Counted<'a> {
-    vehicle: &'a Vehicle,
-    control: Control,
+/// The vehicle in one communication step; counts its right-hand sides.
+pub struct Counted<'a> {
+    pub vehicle: &'a Vehicle,
+    pub control: Control,
     calls: &'a Cell<usize>,
 }
 
@@ -88,25 +90,37 @@ impl<'a> Problem<'a> {
         Self { vehicle, start: trim.state, control: trim.control, steps, law }
     }
 
+    /// Final state and right-hand sides, if `step` moves the state through the interval (s) of one
+    /// communication step.
+    pub fn each<E>(
+        &self,
+        mut step: impl FnMut(&Counted, [f64; 2], &mut State) -> Result<(), E>,
+    ) -> Result<(State, usize), E> {
+        let (mut x, calls) = (self.start, Cell::new(0));
+        for number in 0..self.steps {
+            let elevator = self.law.elevator(number, self.steps, &x);
+            let control = [self.control[0] + elevator, self.control[1]];
+            let system = Counted { vehicle: self.vehicle, control, calls: &calls };
+            let time = |number: usize| FLIGHT_S * number as f64 / self.steps as f64;
+            step(&system, [time(number), time(number + 1)], &mut x)?;
+        }
+        Ok((x, calls.get()))
+    }
+
     /// Final state and right-hand sides.
     pub fn fly(&self, method: &mut impl Method<STATES>, tolerance: f64) -> (State, usize) {
-        let calls = Cell::new(0);
-        let (mut x, mut slope) = (self.start, None);
-        let mut integrator = Integrator::new(tolerance, 1e-3);
-        let mut input = f64::NAN;
-        for step in 0..self.steps {
-            let wanted = self.law.elevator(step, self.steps, &x);
-            if wanted != input {
-                (input, slope) = (wanted, None);
+        let (mut integrator, mut slope) = (Integrator::new(tolerance, 1e-3), None);
+        let mut before = None;
+        let flown: Result<_, Infallible> = self.each(|system, interval, x| {
+            if before.replace(system.control) != Some(system.control) {
+                slope = None;
             }
-            let control = [self.control[0] + input, self.control[1]];
-            let system = Counted { vehicle: self.vehicle, control, calls: &calls };
-            let time = |step: usize| FLIGHT_S * step as f64 / self.steps as f64;
-            let interval = [time(step), time(step + 1)];
-            let arrival = integrator.advance(method, &system, &mut x, interval, &mut slope);
+            let arrival = integrator.advance(method, system, x, interval, &mut slope);
             assert_eq!(arrival, Arrival::Complete, "the flight is short and stays near trim");
-        }
-        (x, calls.get())
+            Ok(())
+        });
+        let Ok(flown) = flown;
+        flown
     }
 
     fn cell(&self, method: &mut impl Method<STATES>, tolerance: f64, exact: &State) -> String {
@@ -139,15 +153,15 @@ pub fn run(options: &Compare) -> Result<()> {
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
             let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
-            let (exact, _) = problem.fly(&mut { RKF78 }, EXACT);
+            let (exact, _) = problem.fly(&mut &RKF78, EXACT);
             let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853", "exponential"])];
             for tolerance in TOLERANCES {
                 let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
                 rows.push(vec![
                     format!("{tolerance:.0e}{mark}"),
-                    problem.cell(&mut { tableaus::DOPRI5 }, tolerance, &exact),
-                    problem.cell(&mut { RKF78 }, tolerance, &exact),
-                    problem.cell(&mut { DOP853 }, tolerance, &exact),
+                    problem.cell(&mut &tableaus::DOPRI5, tolerance, &exact),
+                    problem.cell(&mut &RKF78, tolerance, &exact),
+                    problem.cell(&mut &DOP853, tolerance, &exact),
                     problem.cell(&mut exponential, tolerance, &exact),
                 ]);
             }

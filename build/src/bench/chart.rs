@@ -77,16 +77,14 @@ fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Draw
         let own = points.iter().filter(|point| point.method == *method);
         let own: Vec<_> = own.map(|point| (point.seconds.least, point.error)).collect();
         chart.draw_series(LineSeries::new(own.clone(), colour.stroke_width(2 * scale)))?;
+        let y = ((40 + 24 * number as u32) * scale) as i32;
+        let (start, end) = (2 * scale as i32, 26 * scale as i32);
+        legend.draw(&PathElement::new([(start, y), (end, y)], colour.stroke_width(2 * scale)))?;
         // Where the colours begin anew, the dots are hollow.
         let fill = if number < COLOURS.len() { colour } else { WHITE };
         for (radius, colour) in [(4, colour), (2, fill)] {
             let dot = |&place: &_| Circle::new(place, radius * scale, colour.filled());
             chart.draw_series(own.iter().map(dot))?;
-        }
-        let y = ((40 + 24 * number as u32) * scale) as i32;
-        let (start, end) = (2 * scale as i32, 26 * scale as i32);
-        legend.draw(&PathElement::new([(start, y), (end, y)], colour.stroke_width(2 * scale)))?;
-        for (radius, colour) in [(4, colour), (2, fill)] {
             let middle = ((start + end) / 2, y);
             legend.draw(&Circle::new(middle, radius * scale, colour.filled()))?;
         }

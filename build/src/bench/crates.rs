@@ -1,16 +1,17 @@
 //! Integrators of other crates on our right-hand sides.
 
-use crate::methods::{FLIGHT_S, Law};
-use ahv::dynamics::{Control, NOMINAL, STATES, State, Vehicle};
-use ahv::trim::Trim;
+use crate::methods::Counted;
+use ahv::dynamics::{NOMINAL, STATES, State};
+use ahv::integrate::System as _;
 use anyhow::Result;
 use ode_solvers::{Dop853, OutputType, SVector, System};
 
-/// Final state and right-hand sides of a flight in equal communication steps, at a tolerance.
-pub type Fly = fn(&Vehicle, &Trim, usize, &Law, f64) -> Result<(State, usize)>;
+/// Moves a state through an interval (s), at a tolerance. The state is over its nominal values, so that
+/// one absolute tolerance is that of our flights.
+pub type Step = fn(&Scaled, [f64; 2], &State, f64) -> Result<State>;
 
 /// The crates, by the names of their methods.
-pub const CRATES: &[(&str, Fly)] = &[
+pub const CRATES: &[(&str, Step)] = &[
     ("ode_solvers", ode_solvers),
     #[cfg(feature = "diffsol")]
     ("diffsol tsit45", super::diffsol::tsit45),
@@ -18,42 +19,49 @@ pub const CRATES: &[(&str, Fly)] = &[
     ("diffsol BDF", super::diffsol::bdf),
 ];
 
-/// The state over its nominal values, so that one absolute tolerance is that of our flights.
-type Scaled = SVector<f64, STATES>;
+/// The vehicle in one communication step, its state over nominal values.
+pub struct Scaled<'a>(pub &'a Counted<'a>);
 
-struct Held<'a> {
-    vehicle: &'a Vehicle,
-    control: Control,
-}
-
-impl System<f64, Scaled> for Held<'_> {
-    fn system(&self, _: f64, y: &Scaled, rates: &mut Scaled) {
+impl Scaled<'_> {
+    pub fn rates(&self, y: &[f64]) -> State {
         let x = std::array::from_fn(|i| y[i] * NOMINAL[i]);
-        let derivatives = self.vehicle.derivatives(&x, &self.control, 0.0);
-        (0..STATES).for_each(|i| rates[i] = derivatives[i] / NOMINAL[i]);
+        let rates = self.0.derivatives(0.0, &x);
+        std::array::from_fn(|i| rates[i] / NOMINAL[i])
     }
 }
 
-/// Final state and right-hand sides; the integration starts anew at each communication point.
-fn ode_solvers(
-    vehicle: &Vehicle,
-    trim: &Trim,
-    steps: usize,
-    law: &Law,
+/// One communication step; the integration starts anew.
+pub fn step(
+    method: Step,
+    system: &Counted,
+    interval: [f64; 2],
+    x: &mut State,
     tolerance: f64,
-) -> Result<(State, usize)> {
-    let (mut x, mut calls) = (trim.state, 0);
-    let length = FLIGHT_S / steps as f64;
-    for step in 0..steps {
-        let [elevator, phi] = trim.control;
-        let control = [elevator + law.elevator(step, steps, &x), phi];
-        let start = Scaled::from_fn(|i, _| x[i] / NOMINAL[i]);
-        let held = Held { vehicle, control };
-        let mut stepper = Dop853::new(held, 0.0, length, length, start, tolerance, tolerance);
-        stepper.set_output(OutputType::Sparse);
-        calls += stepper.integrate()?.num_eval as usize;
-        let last = stepper.y_out().last().map_or(start, |state| *state);
-        x = std::array::from_fn(|i| last[i] * NOMINAL[i]);
+) -> Result<()> {
+    let start = std::array::from_fn(|i| x[i] / NOMINAL[i]);
+    let end = method(&Scaled(system), interval, &start, tolerance)?;
+    *x = std::array::from_fn(|i| end[i] * NOMINAL[i]);
+    Ok(())
+}
+
+type Vector = SVector<f64, STATES>;
+
+impl System<f64, Vector> for &Scaled<'_> {
+    fn system(&self, _: f64, y: &Vector, rates: &mut Vector) {
+        *rates = self.rates(y.as_slice()).into();
     }
-    Ok((x, calls))
+}
+
+/// DOP853.
+fn ode_solvers(
+    system: &Scaled,
+    [start, end]: [f64; 2],
+    y: &State,
+    tolerance: f64,
+) -> Result<State> {
+    let y = Vector::from(*y);
+    let mut stepper = Dop853::new(system, start, end, end - start, y, tolerance, tolerance);
+    stepper.set_output(OutputType::Sparse);
+    stepper.integrate()?;
+    Ok(stepper.y_out().last().map_or(y, |state| *state).into())
 }

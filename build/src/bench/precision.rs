@@ -45,7 +45,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
     let (vehicle, trim) = ready(flight)?;
     let (vehicle, trim) = (vehicle.clone(), *trim);
     let problem = Problem::new(&vehicle, &trim, steps, law);
-    let (exact, _) = problem.fly(&mut { RKF78 }, EXACT);
+    let (exact, _) = problem.fly(&mut &RKF78, EXACT);
     let initial = flight.snapshot();
     let mut points = Vec::new();
     for tolerance in TOLERANCES {
@@ -63,12 +63,16 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
             error: error(&reached, &exact),
         });
     }
-    for (method, fly) in crates::CRATES {
+    for (name, method) in crates::CRATES {
         for tolerance in TOLERANCES {
-            let fly = || fly(&vehicle, &trim, steps, &law, tolerance.parse()?);
+            let limit = tolerance.parse()?;
+            let fly = || {
+                problem
+                    .each(|system, interval, x| crates::step(*method, system, interval, x, limit))
+            };
             let (reached, calls) = fly()?;
             points.push(Point {
-                method: format!("{method}, {} ms steps", 1e3 * FLIGHT_S / steps as f64),
+                method: format!("{name}, {} ms steps", 1e3 * FLIGHT_S / steps as f64),
                 tolerance: tolerance.to_string(),
                 seconds: seconds(effort, fly),
                 calls,
@@ -82,7 +86,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
     let (vehicle, trim) = ready(&flight)?;
-    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut { RKF78 }, EXACT).0;
+    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut &RKF78, EXACT).0;
     let closed = Law::closed(trim);
     compare("closed loop, 1 s", &flights(effort, &mut flight, STEPS[0], closed)?, report);
     let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
