@@ -18,7 +18,7 @@ pub struct Blocks<const N: usize> {
 }
 
 /// Each state's partner in its place.
-#[inline]
+#[inline(always)]
 fn swapped<T: Copy, const N: usize>(x: &[T; N]) -> [T; N] {
     const { assert!(N.is_multiple_of(2), "states come in pairs") }
     std::array::from_fn(|i| x[if i % 2 == 1 { (i + 1) % N } else { (i + N - 1) % N }])
@@ -43,10 +43,14 @@ impl<const N: usize> Blocks<N> {
     }
 
     /// L x.
-    #[inline]
+    #[inline(always)]
     pub fn times(&self, x: &[f64; N]) -> [f64; N] {
         let partner = swapped(x);
-        std::array::from_fn(|i| self.own[i] * x[i] + self.cross[i] * partner[i])
+        let mut product = [0.0; N];
+        for i in 0..N {
+            product[i] = self.own[i] * x[i] + self.cross[i] * partner[i];
+        }
+        product
     }
 }
 
@@ -65,7 +69,7 @@ impl<const N: usize> Function<N> {
     pub const ZERO: Self = Self { one: [0.0; N], linear: [0.0; N] };
 
     /// `factor` times the function.
-    #[inline]
+    #[inline(always)]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
             one: self.one.map(|multiple| multiple * factor),
@@ -74,7 +78,7 @@ impl<const N: usize> Function<N> {
     }
 
     /// Adds `factor` times another function.
-    #[inline]
+    #[inline(always)]
     pub fn add(&mut self, factor: f64, other: &Self) {
         for i in 0..N {
             self.one[i] += factor * other.one[i];
@@ -90,6 +94,7 @@ const NEGLIGIBLE: f64 = 1e-18;
 
 /// phi_k(t L) for k = 1 to 4, where phi_k(z) = sum over n of z^n / (n + k)!; by their series, which
 /// keep their digits while t L stays below about 4.
+#[inline(always)]
 pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [Function<N>; PHIS] {
     let (sum, product) = (blocks.sum.map(|s| s * t), blocks.product.map(|p| p * t * t));
     // In multiples of one and z = t L: `factor` z f + `shift`.

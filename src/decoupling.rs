@@ -67,18 +67,18 @@ impl<const N: usize, const F: usize> Decoupling<N, F> {
     }
 
     /// A change of the states, from one of the coordinates.
-    #[inline]
+    #[inline(always)]
     pub fn to_states(&self, coordinates: &[f64; N]) -> [f64; N] {
         self.change(&self.out, coordinates)
     }
 
     /// A change of the coordinates, from one of the states.
-    #[inline]
+    #[inline(always)]
     pub fn to_coordinates(&self, states: &[f64; N]) -> [f64; N] {
         self.change(&self.into, states)
     }
 
-    #[inline]
+    #[inline(always)]
     fn change(&self, columns: &[[f64; N]; F], x: &[f64; N]) -> [f64; N] {
         let fast = self.slow..self.slow + F;
         let mut sum = *x;

@@ -43,16 +43,14 @@ pub struct Trial<const N: usize> {
     pub next: [f64; N],
     /// Derivatives there, if the method needs them.
     pub slope: Option<[f64; N]>,
-    /// Estimate of its error, of the higher embedded order, over its length, 1/s.
-    pub high: [f64; N],
-    /// A second estimate of lower order, which steadies the first; zeros for none. 1/s.
-    pub low: [f64; N],
+    /// Its error over the tolerance.
+    pub error: f64,
+    /// The error falls as the step's length to this power.
+    pub order: i32,
 }
 
 /// A one-step method.
 pub trait Method<const N: usize> {
-    /// The estimate falls as h to this power.
-    fn error_order(&self) -> i32;
     /// Longest step, s.
     fn longest(&self) -> f64 {
         f64::INFINITY
@@ -64,7 +62,26 @@ pub trait Method<const N: usize> {
         x: &[f64; N],
         step: [f64; 2],
         slope: &[f64; N],
+        tolerance: f64,
     ) -> Trial<N>;
+}
+
+/// Largest error of a state over the tolerance, after a step of length h from `x` to `next` in which
+/// the error grew by `rates`, 1/s.
+#[inline(always)]
+pub fn over_tolerance<const N: usize>(
+    tolerance: f64,
+    nominal: &[f64; N],
+    [x, next]: [&[f64; N]; 2],
+    h: f64,
+    rates: &[f64; N],
+) -> f64 {
+    let mut largest = 0.0;
+    for i in 0..N {
+        let size = nominal[i] + x[i].abs().max(next[i].abs());
+        largest = worse(largest, h / (tolerance * size) * rates[i]);
+    }
+    largest
 }
 
 /// Step control: keeps the proposal for the next step between intervals.
@@ -128,13 +145,13 @@ impl Integrator {
                 *first = Some(slope);
                 return Arrival::Stuck(t);
             }
-            let trial = method.trial(system, x, [t, h], &slope);
-            let error = self.error(system, x, h, &trial);
+            let trial = method.trial(system, x, [t, h], &slope, self.tolerance);
+            let error = trial.error;
             // A NaN, from a wild trial state, counts as far too long a step.
             let factor = if error == 0.0 {
                 FACTORS[1]
             } else if error.is_finite() {
-                let exponent = -1.0 / f64::from(method.error_order());
+                let exponent = -1.0 / f64::from(trial.order);
                 (SAFETY * libm::pow(error, exponent)).clamp(FACTORS[0], FACTORS[1])
             } else {
                 FACTORS[0]
@@ -160,35 +177,9 @@ impl Integrator {
         }
         Arrival::Complete
     }
-
-    /// Error of a trial step of length h from x, over the tolerance.
-    fn error<const N: usize>(
-        &self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        h: f64,
-        trial: &Trial<N>,
-    ) -> f64 {
-        let (nominal, next) = (system.nominal(), &trial.next);
-        let (mut high, mut low) = (0.0_f64, 0.0_f64);
-        for i in 0..N {
-            let scale = h / (self.tolerance * (nominal[i] + x[i].abs().max(next[i].abs())));
-            high = worse(high, scale * trial.high[i]);
-            low = worse(low, scale * trial.low[i]);
-        }
-        if low == 0.0 {
-            return high;
-        }
-        // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
-        high * high / libm::sqrt(high * high + 0.01 * low * low)
-    }
 }
 
 impl<const N: usize, const S: usize> Method<N> for &Tableau<S> {
-    fn error_order(&self) -> i32 {
-        self.error_order
-    }
-
     #[inline]
     fn trial(
         &mut self,
@@ -196,6 +187,7 @@ impl<const N: usize, const S: usize> Method<N> for &Tableau<S> {
         x: &[f64; N],
         [t, h]: [f64; 2],
         slope: &[f64; N],
+        tolerance: f64,
     ) -> Trial<N> {
         let mut stages = [[0.0; N]; S];
         stages[0] = *slope;
@@ -204,13 +196,22 @@ impl<const N: usize, const S: usize> Method<N> for &Tableau<S> {
             let trial = advanced(combine(&stages[..stage], &self.a[stage]));
             stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
         }
-        let [high, low] = [&self.error, &self.error_low].map(|w| combine(&stages, w));
         let next = advanced(combine(&stages, &self.b));
-        Trial { next, slope: None, high, low }
+        let [high, low] = [&self.error, &self.error_low].map(|weights| {
+            let rates = combine(&stages, weights);
+            over_tolerance(tolerance, system.nominal(), [x, &next], h, &rates)
+        });
+        let error = match low {
+            0.0 => high,
+            // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
+            _ => high * high / libm::sqrt(high * high + 0.01 * low * low),
+        };
+        Trial { next, slope: None, error, order: self.error_order }
     }
 }
 
 /// Larger of two magnitudes; unlike `f64::max` it keeps a NaN.
+#[inline(always)]
 fn worse(largest: f64, value: f64) -> f64 {
     let magnitude = value.abs();
     if magnitude > largest || magnitude.is_nan() { magnitude } else { largest }

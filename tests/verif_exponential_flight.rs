@@ -7,8 +7,9 @@ mod model;
 use ahv::decoupling::Decoupling;
 use ahv::dop853::DOP853;
 use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::exponential::Exponential;
 use ahv::flight::{Flight, method};
-use ahv::integrate::{Arrival, Integrator, Method, System};
+use ahv::integrate::{Arrival, Integrator, Method, System, Trial};
 use ahv::linear::Linear;
 use ahv::trim::Trim;
 use ahv::vehicle::Configuration;
@@ -82,6 +83,25 @@ fn flown(
     (x, Arrival::Complete)
 }
 
+/// The method in the registers that every processor has.
+struct Portable<M>(M);
+
+impl<const N: usize, const F: usize> Method<N> for Portable<Exponential<N, F>> {
+    fn longest(&self) -> f64 {
+        self.0.longest()
+    }
+    fn trial(
+        &mut self,
+        system: &impl System<N>,
+        x: &[f64; N],
+        step: [f64; 2],
+        slope: &[f64; N],
+        tolerance: f64,
+    ) -> Trial<N> {
+        self.0.portable(system, x, step, slope, tolerance)
+    }
+}
+
 const FLIGHT_S: f64 = 0.4;
 /// Error of a flight over its tolerance: of some tens of steps, in an unstable vehicle.
 const GROWTH: f64 = 100.0;
@@ -113,7 +133,10 @@ proptest! {
         prop_assume!(vehicle.holds(&start, gust));
         let system = Held(&vehicle, [trim.control[0] + controls[0], controls[1]], gust);
         let tolerance = 10.0_f64.powi(-digits);
-        let ours = flown(&mut method(&vehicle, &trim), &system, &start, tolerance, steps);
+        let method = method(&vehicle, &trim);
+        let ours = flown(&mut method.clone(), &system, &start, tolerance, steps);
+        let portable = flown(&mut Portable(method), &system, &start, tolerance, steps);
+        prop_assert_eq!(ours.0, portable.0, "wider registers change no bit");
         let exact = flown(&mut &DOP853, &system, &start, 1e-12, steps);
         // Those that leave do so at slightly different instants.
         prop_assume!(ours.1 == Arrival::Complete && exact.1 == Arrival::Complete);

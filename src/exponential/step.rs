@@ -1,0 +1,142 @@
+//! One step of the exponential method.
+
+use super::{EARLY, Exponential, NODES, SOURCES, STAGES, course, node};
+use crate::blocks::Function;
+use crate::integrate::{System, Trial, over_tolerance};
+
+/// The error of the early end over the miss of D there against the line. It is half of it for short
+/// steps in which D changes with the state.
+const EARLY_SHARE: f64 = 1.0;
+/// Error over the tolerance below which the step ends early: such a step may be as long again.
+const EARLY_ERROR: f64 = 0.5;
+/// The stages' errors in the error of the step, over the error of D in the early end. It is 0.16 for
+/// short steps; with this the error found stays below the one that is asked for.
+const STAGE_SHARE: f64 = 0.5;
+/// The quadrature's error over the last difference of D and the share to which the differences fall.
+/// Where D is smooth it is smaller by two falls more; D that moves twice as fast as the fastest
+/// oscillator, as squares of it do, is not.
+const QUADRATURE: f64 = 0.5;
+
+/// Integral over the step of the polynomial through D of all `sources` less that of the polynomial
+/// without the first of them, without the functions of L: what each stage's D counts.
+const fn difference(sources: &[usize]) -> [f64; STAGES] {
+    let (_, fewer) = sources.split_at(1);
+    let mut weights = [0.0; STAGES];
+    let mut i = 0;
+    while i < sources.len() {
+        let own = sources[i];
+        let [a, b, c] = course(sources, own);
+        weights[own] = a / 2.0 + b / 3.0 + c / 4.0;
+        if i > 0 {
+            let [a, b, c] = course(fewer, own);
+            weights[own] -= a / 2.0 + b / 3.0 + c / 4.0;
+        }
+        i += 1;
+    }
+    weights
+}
+
+/// Cubic less parabola, and parabola less straight line.
+const DIFFERENCES: [[f64; STAGES]; 2] = [difference(&[2, 3, 1]), difference(&[3, 1])];
+
+#[inline(always)]
+fn sum_of<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+#[inline(always)]
+fn difference_of<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+/// A step under way.
+pub(super) struct Step<'a, S, const N: usize, const F: usize> {
+    pub method: &'a Exponential<N, F>,
+    pub system: &'a S,
+    pub x: &'a [f64; N],
+    pub slope: &'a [f64; N],
+    /// Time, length of the step, and what its weights leave of that, s.
+    pub t: f64,
+    pub h: f64,
+    pub left: f64,
+    /// The slope in the coordinates.
+    pub pull: [f64; N],
+    /// D of the stages in the coordinates.
+    pub rest: [[f64; N]; STAGES],
+}
+
+/// A stage, or the step's end.
+struct Reached<const N: usize> {
+    state: [f64; N],
+    rates: [f64; N],
+    /// In the coordinates.
+    d: [f64; N],
+}
+
+impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
+    /// A stage from those before; the last is the end.
+    #[inline(always)]
+    fn reach<const STAGE: usize>(&self) -> Reached<N> {
+        let (linear, blocks) = (&self.method.linear, &self.method.linear.blocks);
+        let node = node(STAGE);
+        let (of_slope, of_sources) = self.method.weights[STAGE].split_at(1);
+        // Sums of functions of L: multiples of one, and of L.
+        let (mut moved, mut linear_in) = ([0.0; N], [0.0; N]);
+        for i in 0..N {
+            let mut take = |weight: &Function<N>, x: f64| {
+                moved[i] += weight.one[i] * x;
+                linear_in[i] += weight.linear[i] * x;
+            };
+            take(&of_slope[0], self.pull[i]);
+            for (weight, &source) in of_sources.iter().zip(SOURCES[STAGE]) {
+                take(weight, self.rest[source][i]);
+            }
+        }
+        moved = sum_of(&moved, &blocks.times(&linear_in));
+        let drift = blocks.times(&moved);
+        for i in 0..N {
+            moved[i] += node * self.left * (self.pull[i] + drift[i]);
+        }
+        let state = sum_of(self.x, &linear.to_states(&moved));
+        let rates = self.system.derivatives(self.t + node * self.h, &state);
+        let change = linear.to_coordinates(&difference_of(&rates, self.slope));
+        let d = difference_of(&change, &blocks.times(&moved));
+        Reached { state, rates, d }
+    }
+
+    /// What an error of D (in the coordinates) makes of the step, over the tolerance.
+    #[inline(always)]
+    fn error(&self, tolerance: f64, next: &[f64; N], missed: &[f64; N]) -> f64 {
+        let rates = self.method.linear.to_states(missed);
+        over_tolerance(tolerance, self.system.nominal(), [self.x, next], self.h, &rates)
+    }
+
+    /// The step's end, early or not.
+    #[inline(always)]
+    pub fn trial(mut self, tolerance: f64) -> Trial<N> {
+        self.rest[0] = self.reach::<0>().d;
+        let early = self.reach::<EARLY>();
+        let line = |i: usize| self.rest[0][i] / NODES[0];
+        let missed = std::array::from_fn(|i| EARLY_SHARE * (early.d[i] - line(i)));
+        let error = self.error(tolerance, &early.state, &missed);
+        if error < EARLY_ERROR {
+            return Trial { next: early.state, slope: Some(early.rates), error, order: 3 };
+        }
+        self.rest[EARLY] = early.d;
+        self.rest[2] = self.reach::<2>().d;
+        self.rest[3] = self.reach::<3>().d;
+        let end = self.reach::<STAGES>();
+        let rest = &self.rest;
+        let quadrature = |weights: &[f64; STAGES], i: usize| -> f64 {
+            (0..STAGES).map(|stage| weights[stage] * rest[stage][i]).sum()
+        };
+        let missed = std::array::from_fn(|i| {
+            let [cubic, parabola] =
+                [quadrature(&DIFFERENCES[0], i), quadrature(&DIFFERENCES[1], i)];
+            let falls = (cubic / parabola).abs();
+            cubic * (QUADRATURE * falls).min(1.0) + STAGE_SHARE * (end.d[i] - rest[EARLY][i])
+        });
+        let error = self.error(tolerance, &end.state, &missed);
+        Trial { next: end.state, slope: Some(end.rates), error, order: 5 }
+    }
+}
