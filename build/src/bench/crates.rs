@@ -19,6 +19,18 @@ pub const CRATES: &[(&str, Step)] = &[
     ("diffsol BDF", super::diffsol::bdf),
 ];
 
+/// Names and versions of the crates, as they are locked.
+pub fn versions() -> Result<Vec<String>> {
+    let lock: toml::Table = toml::from_str(include_str!("../../../Cargo.lock"))?;
+    let packages = lock["package"].as_array().into_iter().flatten();
+    let named = packages.filter_map(|package| {
+        let name = package.get("name")?.as_str()?;
+        let used = CRATES.iter().any(|(method, _)| method.split(' ').next() == Some(name));
+        used.then(|| Some(format!("{name} {}", package.get("version")?.as_str()?)))?
+    });
+    Ok(named.collect())
+}
+
 /// The vehicle in one communication step, its state over nominal values.
 pub struct Scaled<'a>(pub &'a Counted<'a>);
 

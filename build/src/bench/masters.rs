@@ -36,6 +36,7 @@ fn python_fmu(python: &PathBuf) -> Result<PathBuf> {
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let python = python()?;
+    report.python_versions(&python, &["FMPy", "pythonfmu"]);
     let mut command = Command::new(&python);
     command.arg(root().join("build/bench/fmpy_steps.py")).arg((3 * effort.repeats).to_string());
     command.arg(package::fresh(Targets::Possible)?).arg(idle()?);

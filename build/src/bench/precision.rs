@@ -88,6 +88,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let (vehicle, trim) = ready(&flight)?;
     let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut &RKF78, EXACT).0;
     let closed = Law::closed(trim);
+    report.versions.extend(crates::versions()?);
     compare("closed loop, 1 s", &flights(effort, &mut flight, STEPS[0], closed)?, report);
     let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
     compare("1 s", &points, report);
@@ -95,11 +96,17 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let mut rare = flights(effort, &mut flight, STEPS[1], Law::OPEN)?;
     // A peer that is not installed is left out; one that is and fails is an error.
     match peers::sundials() {
-        Ok(program) => rare.extend(peers::under_sundials(&program, effort, &exact)?),
+        Ok(program) => {
+            report.version("dpkg-query", &["-W", "-f=SUNDIALS ${Version}", "libsundials-dev"]);
+            rare.extend(peers::under_sundials(&program, effort, &exact)?);
+        }
         Err(why) => report.left_out("SUNDIALS", &why),
     }
     match python() {
-        Ok(python) => rare.extend(peers::under_scipy(&python, effort)?),
+        Ok(python) => {
+            report.python_versions(&python, &["numpy", "scipy"]);
+            rare.extend(peers::under_scipy(&python, effort)?);
+        }
         Err(why) => report.left_out("SciPy", &why),
     }
     compare("1 s", &rare, report);

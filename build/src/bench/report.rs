@@ -7,6 +7,7 @@ use crate::table::{number, row, table};
 use crate::workspace::{root, shown, target, write};
 use anyhow::Result;
 use serde::Serialize;
+use std::ffi::OsStr;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -28,7 +29,7 @@ pub struct Report {
     pub machine: String,
     /// Of the source; `+` if files have changed since.
     pub commit: String,
-    /// Compilers and tools that were used.
+    /// Compilers, tools and peers that were used.
     pub versions: Vec<String>,
     pub lines: Vec<Line>,
     /// What could not be measured here, and why.
@@ -38,7 +39,7 @@ pub struct Report {
 }
 
 /// First line of what a program says; none if there is no such program.
-pub fn says(program: &str, arguments: &[&str]) -> Option<String> {
+pub fn says(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).current_dir(root()).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     output.status.success().then(|| text.lines().next().unwrap_or_default().trim().to_string())
@@ -84,6 +85,21 @@ impl Report {
         let line = Line { what: what.into(), unit, value, note: note.into() };
         eprintln!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
         self.lines.push(line);
+    }
+
+    /// Adds the first line of what a peer's tool says of versions, once.
+    pub fn version(&mut self, program: impl AsRef<OsStr>, arguments: &[&str]) {
+        let version = says(program, arguments).filter(|version| !self.versions.contains(version));
+        self.versions.extend(version);
+    }
+
+    /// Adds the versions of packages in a Python environment.
+    pub fn python_versions(&mut self, python: &Path, packages: &[&str]) {
+        let code = format!(
+            "from importlib.metadata import version as v; \
+             print('; '.join(p + ' ' + v(p) for p in {packages:?}))"
+        );
+        self.version(python, &["-c", &code]);
     }
 
     pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
