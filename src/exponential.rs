@@ -36,6 +36,16 @@ const NODES: [f64; STAGES] = [2.0 / 3.0, 1.0, LOBATTO[0], LOBATTO[1]];
 const EARLY: usize = 1;
 /// For each stage, and for the step itself, the stages whose D it is made of.
 const SOURCES: [&[usize]; STAGES + 1] = [&[], &[0], &[0, 1], &[1, 2], &[2, 3, 1]];
+/// Where each row of [`SOURCES`] begins among the weights, and where they end: one weight for f(x0) in
+/// each row, and one for each source.
+const ROWS: [usize; STAGES + 2] = {
+    let (mut rows, mut row) = ([0; STAGES + 2], 0);
+    while row < SOURCES.len() {
+        rows[row + 1] = rows[row] + 1 + SOURCES[row].len();
+        row += 1;
+    }
+    rows
+};
 /// Most sources of a stage.
 const DEGREE: usize = 3;
 /// Longest step, rad of the fastest oscillator: the cubic is to follow D at its frequency.
@@ -54,14 +64,14 @@ pub struct Exponential<const N: usize, const F: usize> {
     /// Length of step for which the weights are, s.
     length: f64,
     /// What each stage, and the step itself, takes of f(x0), then of D of each source.
-    weights: [[Function<N>; 1 + DEGREE]; STAGES + 1],
+    weights: [Function<N>; ROWS[STAGES + 1]],
 }
 
 impl<const N: usize, const F: usize> Exponential<N, F> {
     /// The method that takes this part of the motion exactly.
     pub fn new(linear: Decoupling<N, F>) -> Self {
         let longest = LONGEST / linear.blocks.fastest;
-        Self { linear, longest, length: 0.0, weights: [[Function::ZERO; 1 + DEGREE]; STAGES + 1] }
+        Self { linear, longest, length: 0.0, weights: [Function::ZERO; ROWS[STAGES + 1]] }
     }
 
     /// Makes the weights those of a step of this length.
@@ -77,9 +87,9 @@ impl<const N: usize, const F: usize> Exponential<N, F> {
                 1.0 => whole,
                 end => moments(&self.linear.blocks, length, end),
             };
-            let (of_slope, of_sources) = self.weights[stage].split_at_mut(1);
-            of_slope[0] = pushed[0];
-            for (weight, &own) in of_sources.iter_mut().zip(*sources) {
+            let row = &mut self.weights[ROWS[stage]..ROWS[stage + 1]];
+            row[0] = pushed[0];
+            for (weight, &own) in row[1..].iter_mut().zip(*sources) {
                 *weight = Function::ZERO;
                 for (factor, moment) in course(sources, own).iter().zip(&pushed[1..]) {
                     weight.add(*factor, moment);

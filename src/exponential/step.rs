@@ -1,6 +1,6 @@
 //! One step of the exponential method.
 
-use super::{EARLY, Exponential, NODES, SOURCES, STAGES, course, node};
+use super::{EARLY, Exponential, NODES, ROWS, SOURCES, STAGES, course, node};
 use crate::blocks::Function;
 use crate::integrate::{System, Trial, over_tolerance};
 
@@ -79,7 +79,7 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
     fn reach<const STAGE: usize>(&self) -> Reached<N> {
         let (linear, blocks) = (&self.method.linear, &self.method.linear.blocks);
         let node = node(STAGE);
-        let (of_slope, of_sources) = self.method.weights[STAGE].split_at(1);
+        let row = &self.method.weights[ROWS[STAGE]..ROWS[STAGE + 1]];
         // Sums of functions of L: multiples of one, and of L.
         let (mut moved, mut linear_in) = ([0.0; N], [0.0; N]);
         for i in 0..N {
@@ -87,8 +87,8 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
                 moved[i] += weight.one[i] * x;
                 linear_in[i] += weight.linear[i] * x;
             };
-            take(&of_slope[0], self.pull[i]);
-            for (weight, &source) in of_sources.iter().zip(SOURCES[STAGE]) {
+            take(&row[0], self.pull[i]);
+            for (weight, &source) in row[1..].iter().zip(SOURCES[STAGE]) {
                 take(weight, self.rest[source][i]);
             }
         }
