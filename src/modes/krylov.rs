@@ -17,6 +17,7 @@
 use super::jacobi;
 use crate::beam::{Beam, Oscillator};
 use crate::error::Error;
+use multiversion::multiversion;
 
 /// Heave and pitch.
 const RIGID: usize = 2;
@@ -235,7 +236,9 @@ fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) 
         .collect()
 }
 
-/// In eight running sums: quicker, more accurate, and the same on every platform.
+/// In eight running sums: quicker, more accurate, and the same on every platform, in registers of any
+/// width.
+#[multiversion(targets("x86_64+avx"))]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (a, a_rest) = a.as_chunks::<8>();
@@ -249,6 +252,7 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
+#[multiversion(targets("x86_64+avx"))]
 fn add_scaled(target: &mut [f64], factor: f64, vector: &[f64]) {
     for (x, y) in target.iter_mut().zip(vector) {
         *x += factor * y;
