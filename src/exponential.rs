@@ -49,7 +49,7 @@ const ROWS: [usize; STAGES + 2] = {
 /// Most sources of a stage.
 const DEGREE: usize = 3;
 /// Longest step, rad of the fastest oscillator: the cubic is to follow D at its frequency.
-const LONGEST: f64 = 2.4;
+const LONGEST: f64 = 2.0;
 
 /// When a stage is, or the step's end, over the step.
 fn node(stage: usize) -> f64 {

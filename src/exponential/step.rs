@@ -7,8 +7,8 @@ use crate::integrate::{System, Trial, over_tolerance};
 /// The error of the early end over the miss of D there against the line. It is half of it for short
 /// steps in which D changes with the state.
 const EARLY_SHARE: f64 = 1.0;
-/// Error over the tolerance below which the step ends early: such a step may be as long again.
-const EARLY_ERROR: f64 = 0.5;
+/// Error over the tolerance below which the step ends early: altitude, whose tolerance is large, keeps its digits.
+const EARLY_ERROR: f64 = 1e-3;
 /// The stages' errors in the error of the step, over the error of D in the early end. It is 0.16 for
 /// short steps; with this the error found stays below the one that is asked for.
 const STAGE_SHARE: f64 = 0.5;
