@@ -22,7 +22,7 @@ mod step;
 
 use crate::blocks::{Blocks, Function, PHIS, phis};
 use crate::decoupling::Decoupling;
-use crate::integrate::{Method, System, Trial};
+use crate::integrate::{Attempt, Method, System, Trial};
 use multiversion::multiversion;
 use step::Step;
 
@@ -100,19 +100,11 @@ impl<const N: usize, const F: usize> Exponential<N, F> {
 
     /// [`Method::trial`] in the registers that every processor has.
     #[inline(always)]
-    pub fn portable(
-        &mut self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        [t, h]: [f64; 2],
-        slope: &[f64; N],
-        tolerance: f64,
-    ) -> Trial<N> {
-        let length = rounded(h);
+    pub fn portable<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
+        let length = rounded(attempt.h);
         self.prepare(length);
-        let (left, pull) = (h - length, self.linear.to_coordinates(slope));
-        let rest = [[0.0; N]; STAGES];
-        Step { method: self, system, x, slope, t, h, left, pull, rest }.trial(tolerance)
+        let (left, pull) = (attempt.h - length, self.linear.to_coordinates(attempt.slope));
+        Step { method: self, attempt, left, pull, rest: [[0.0; N]; STAGES] }.trial()
     }
 }
 
@@ -156,28 +148,17 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
         self.longest
     }
 
-    fn trial(
-        &mut self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        step: [f64; 2],
-        slope: &[f64; N],
-        tolerance: f64,
-    ) -> Trial<N> {
-        in_widest(self, system, x, step, slope, tolerance)
+    fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
+        in_widest(self, attempt)
     }
 }
 
 /// The same operations in the same order, so the same bits, but four states at a time where the processor
 /// can: whatever is always inlined is compiled again for its wider registers.
 #[multiversion(targets("x86_64+avx"))]
-fn in_widest<const N: usize, const F: usize>(
+fn in_widest<S: System<N>, const N: usize, const F: usize>(
     method: &mut Exponential<N, F>,
-    system: &impl System<N>,
-    x: &[f64; N],
-    step: [f64; 2],
-    slope: &[f64; N],
-    tolerance: f64,
+    attempt: &Attempt<S, N>,
 ) -> Trial<N> {
-    method.portable(system, x, step, slope, tolerance)
+    method.portable(attempt)
 }

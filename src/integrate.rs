@@ -49,39 +49,45 @@ pub struct Trial<const N: usize> {
     pub order: i32,
 }
 
+/// A step to be tried.
+pub struct Attempt<'a, S, const N: usize> {
+    /// What moves.
+    pub system: &'a S,
+    /// Where from.
+    pub x: &'a [f64; N],
+    /// Derivatives there.
+    pub slope: &'a [f64; N],
+    /// When from, s.
+    pub t: f64,
+    /// For how long, s.
+    pub h: f64,
+    /// Relative tolerance.
+    pub tolerance: f64,
+}
+
+impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
+    /// Largest error of a state over the tolerance, if the step ends in `next` and the error grew by
+    /// `rates`, 1/s.
+    #[inline(always)]
+    pub fn error(&self, next: &[f64; N], rates: &[f64; N]) -> f64 {
+        let nominal = self.system.nominal();
+        let mut largest = 0.0;
+        for i in 0..N {
+            let size = nominal[i] + self.x[i].abs().max(next[i].abs());
+            largest = worse(largest, self.h / (self.tolerance * size) * rates[i]);
+        }
+        largest
+    }
+}
+
 /// A one-step method.
 pub trait Method<const N: usize> {
     /// Longest step, s.
     fn longest(&self) -> f64 {
         f64::INFINITY
     }
-    /// A step of length h from t and x, where the derivatives are `slope`.
-    fn trial(
-        &mut self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        step: [f64; 2],
-        slope: &[f64; N],
-        tolerance: f64,
-    ) -> Trial<N>;
-}
-
-/// Largest error of a state over the tolerance, after a step of length h from `x` to `next` in which
-/// the error grew by `rates`, 1/s.
-#[inline(always)]
-pub fn over_tolerance<const N: usize>(
-    tolerance: f64,
-    nominal: &[f64; N],
-    [x, next]: [&[f64; N]; 2],
-    h: f64,
-    rates: &[f64; N],
-) -> f64 {
-    let mut largest = 0.0;
-    for i in 0..N {
-        let size = nominal[i] + x[i].abs().max(next[i].abs());
-        largest = worse(largest, h / (tolerance * size) * rates[i]);
-    }
-    largest
+    /// Where a step leads, and how far it may be off.
+    fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N>;
 }
 
 /// Step control: keeps the proposal for the next step between intervals.
@@ -145,7 +151,8 @@ impl Integrator {
                 *first = Some(slope);
                 return Arrival::Stuck(t);
             }
-            let trial = method.trial(system, x, [t, h], &slope, self.tolerance);
+            let tolerance = self.tolerance;
+            let trial = method.trial(&Attempt { system, x, slope: &slope, t, h, tolerance });
             let error = trial.error;
             // A NaN, from a wild trial state, counts as far too long a step.
             let factor = if error == 0.0 {
@@ -179,28 +186,20 @@ impl Integrator {
     }
 }
 
-impl<const N: usize, const S: usize> Method<N> for &Tableau<S> {
+impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
     #[inline]
-    fn trial(
-        &mut self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        [t, h]: [f64; 2],
-        slope: &[f64; N],
-        tolerance: f64,
-    ) -> Trial<N> {
-        let mut stages = [[0.0; N]; S];
+    fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
+        let &Attempt { system, x, slope, t, h, .. } = attempt;
+        let mut stages = [[0.0; N]; STAGES];
         stages[0] = *slope;
         let advanced = |sum: [f64; N]| std::array::from_fn(|i| x[i] + h * sum[i]);
-        for stage in 1..S {
+        for stage in 1..STAGES {
             let trial = advanced(combine(&stages[..stage], &self.a[stage]));
             stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
         }
         let next = advanced(combine(&stages, &self.b));
-        let [high, low] = [&self.error, &self.error_low].map(|weights| {
-            let rates = combine(&stages, weights);
-            over_tolerance(tolerance, system.nominal(), [x, &next], h, &rates)
-        });
+        let [high, low] = [&self.error, &self.error_low]
+            .map(|weights| attempt.error(&next, &combine(&stages, weights)));
         let error = match low {
             0.0 => high,
             // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).

@@ -9,7 +9,7 @@ use ahv::dop853::DOP853;
 use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv::exponential::Exponential;
 use ahv::flight::{Flight, method};
-use ahv::integrate::{Arrival, Integrator, Method, System, Trial};
+use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
 use ahv::linear::Linear;
 use ahv::trim::Trim;
 use ahv::vehicle::Configuration;
@@ -90,15 +90,8 @@ impl<const N: usize, const F: usize> Method<N> for Portable<Exponential<N, F>> {
     fn longest(&self) -> f64 {
         self.0.longest()
     }
-    fn trial(
-        &mut self,
-        system: &impl System<N>,
-        x: &[f64; N],
-        step: [f64; 2],
-        slope: &[f64; N],
-        tolerance: f64,
-    ) -> Trial<N> {
-        self.0.portable(system, x, step, slope, tolerance)
+    fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
+        self.0.portable(attempt)
     }
 }
 

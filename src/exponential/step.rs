@@ -2,12 +2,10 @@
 
 use super::{EARLY, Exponential, NODES, ROWS, SOURCES, STAGES, course, node};
 use crate::blocks::Function;
-use crate::integrate::{System, Trial, over_tolerance};
+use crate::integrate::{Attempt, System, Trial};
 
-/// The error of the early end over the miss of D there against the line. It is half of it for short
-/// steps in which D changes with the state.
-const EARLY_SHARE: f64 = 1.0;
-/// Error over the tolerance below which the step ends early: altitude, whose tolerance is large, keeps its digits.
+/// Error over the tolerance below which the step ends early. So small because the tolerance of an altitude
+/// is large, and its excursions are to keep their digits.
 const EARLY_ERROR: f64 = 1e-3;
 /// The stages' errors in the error of the step, over the error of D in the early end. It is 0.16 for
 /// short steps; with this the error found stays below the one that is asked for.
@@ -52,12 +50,8 @@ fn difference_of<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
 /// A step under way.
 pub(super) struct Step<'a, S, const N: usize, const F: usize> {
     pub method: &'a Exponential<N, F>,
-    pub system: &'a S,
-    pub x: &'a [f64; N],
-    pub slope: &'a [f64; N],
-    /// Time, length of the step, and what its weights leave of that, s.
-    pub t: f64,
-    pub h: f64,
+    pub attempt: &'a Attempt<'a, S, N>,
+    /// What the weights leave of the step's length, s.
     pub left: f64,
     /// The slope in the coordinates.
     pub pull: [f64; N],
@@ -78,7 +72,7 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
     #[inline(always)]
     fn reach<const STAGE: usize>(&self) -> Reached<N> {
         let (linear, blocks) = (&self.method.linear, &self.method.linear.blocks);
-        let node = node(STAGE);
+        let (node, Attempt { system, x, slope, t, h, .. }) = (node(STAGE), self.attempt);
         let row = &self.method.weights[ROWS[STAGE]..ROWS[STAGE + 1]];
         // Sums of functions of L: multiples of one, and of L.
         let (mut moved, mut linear_in) = ([0.0; N], [0.0; N]);
@@ -97,28 +91,27 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
         for i in 0..N {
             moved[i] += node * self.left * (self.pull[i] + drift[i]);
         }
-        let state = sum_of(self.x, &linear.to_states(&moved));
-        let rates = self.system.derivatives(self.t + node * self.h, &state);
-        let change = linear.to_coordinates(&difference_of(&rates, self.slope));
+        let state = sum_of(x, &linear.to_states(&moved));
+        let rates = system.derivatives(t + node * h, &state);
+        let change = linear.to_coordinates(&difference_of(&rates, slope));
         let d = difference_of(&change, &blocks.times(&moved));
         Reached { state, rates, d }
     }
 
     /// What an error of D (in the coordinates) makes of the step, over the tolerance.
     #[inline(always)]
-    fn error(&self, tolerance: f64, next: &[f64; N], missed: &[f64; N]) -> f64 {
-        let rates = self.method.linear.to_states(missed);
-        over_tolerance(tolerance, self.system.nominal(), [self.x, next], self.h, &rates)
+    fn error(&self, next: &[f64; N], missed: &[f64; N]) -> f64 {
+        self.attempt.error(next, &self.method.linear.to_states(missed))
     }
 
     /// The step's end, early or not.
     #[inline(always)]
-    pub fn trial(mut self, tolerance: f64) -> Trial<N> {
+    pub fn trial(mut self) -> Trial<N> {
         self.rest[0] = self.reach::<0>().d;
         let early = self.reach::<EARLY>();
-        let line = |i: usize| self.rest[0][i] / NODES[0];
-        let missed = std::array::from_fn(|i| EARLY_SHARE * (early.d[i] - line(i)));
-        let error = self.error(tolerance, &early.state, &missed);
+        // The error of the early end is half of this for short steps in which D changes with the state.
+        let missed = std::array::from_fn(|i| early.d[i] - self.rest[0][i] / NODES[0]);
+        let error = self.error(&early.state, &missed);
         if error < EARLY_ERROR {
             return Trial { next: early.state, slope: Some(early.rates), error, order: 3 };
         }
@@ -136,7 +129,7 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
             let falls = (cubic / parabola).abs();
             cubic * (QUADRATURE * falls).min(1.0) + STAGE_SHARE * (end.d[i] - rest[EARLY][i])
         });
-        let error = self.error(tolerance, &end.state, &missed);
+        let error = self.error(&end.state, &missed);
         Trial { next: end.state, slope: Some(end.rates), error, order: 5 }
     }
 }

@@ -24,11 +24,10 @@ pub fn versions() -> Result<Vec<String>> {
     let lock: toml::Table = toml::from_str(include_str!("../../../Cargo.lock"))?;
     let packages = lock["package"].as_array().into_iter().flatten();
     let named = packages.filter_map(|package| {
-        let name = package.get("name")?.as_str()?;
-        let used = CRATES.iter().any(|(method, _)| method.split(' ').next() == Some(name));
-        used.then(|| Some(format!("{name} {}", package.get("version")?.as_str()?)))?
+        Some([package.get("name")?.as_str()?, package.get("version")?.as_str()?])
     });
-    Ok(named.collect())
+    let used = |name| CRATES.iter().any(|(method, _)| method.split(' ').next() == Some(name));
+    Ok(named.filter(|[name, _]| used(name)).map(|name| name.join(" ")).collect())
 }
 
 /// The vehicle in one communication step, its state over nominal values.
