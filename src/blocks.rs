@@ -1,8 +1,7 @@
 //! A matrix that couples the states in pairs, as an oscillator couples its coordinate with its rate,
 //! and functions of it.
 
-/// An N x N matrix L of 2 x 2 blocks. A state with an odd number is paired with the next one, the
-/// last with the first: N is even.
+/// An N x N matrix L of 2 x 2 blocks. A state with an even number is paired with the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blocks<const N: usize> {
     /// Diagonal.
@@ -21,7 +20,7 @@ pub struct Blocks<const N: usize> {
 #[inline(always)]
 fn swapped<T: Copy, const N: usize>(x: &[T; N]) -> [T; N] {
     const { assert!(N.is_multiple_of(2), "states come in pairs") }
-    std::array::from_fn(|i| x[if i % 2 == 1 { (i + 1) % N } else { (i + N - 1) % N }])
+    std::array::from_fn(|i| x[i ^ 1])
 }
 
 impl<const N: usize> Blocks<N> {

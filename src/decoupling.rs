@@ -5,16 +5,15 @@ use nalgebra::{DMatrix, Schur};
 
 /// The fast part L of a system's linear motion in coordinates of its own.
 ///
-/// Of N states the first ones are slow, the F after them fast. L is the Jacobian as the fast ones
-/// move it: how they move each other, and how they move the slow ones. In the coordinates it is made of
-/// 2 x 2 blocks.
+/// Of N states the first SLOW are slow, the FAST after them fast, and what is left slow again. L is the
+/// Jacobian as the fast ones move it: how they move each other, and how they move the slow ones. In the
+/// coordinates, of which the fast ones come first, it is made of 2 x 2 blocks.
 #[derive(Debug, Clone)]
-pub struct Decoupling<const N: usize, const F: usize> {
-    slow: usize,
+pub struct Decoupling<const N: usize, const SLOW: usize, const FAST: usize> {
     /// Change of all states for one of each fast coordinate.
-    out: [[f64; N]; F],
+    out: [[f64; N]; FAST],
     /// Change of all coordinates for one of each fast state.
-    into: [[f64; N]; F],
+    into: [[f64; N]; FAST],
     /// L in the coordinates.
     pub blocks: Blocks<N>,
 }
@@ -30,26 +29,28 @@ const ITERATIONS: usize = 2;
 /// Of the QR algorithm: a few for each eigenvalue, without end for some that are multiple.
 const SWEEPS: usize = 500;
 
-impl<const N: usize, const F: usize> Decoupling<N, F> {
+impl<const N: usize, const SLOW: usize, const FAST: usize> Decoupling<N, SLOW, FAST> {
     /// Of a system's Jacobian, of N states or fewer, about typical sizes of the states. Where no
     /// coordinates decouple it well, each pair of states counts as an oscillator by itself.
-    pub fn new(jacobian: &DMatrix<f64>, slow: usize, nominal: &[f64; N]) -> Self {
-        const { assert!(N.is_multiple_of(2) && F.is_multiple_of(2), "states come in pairs") }
-        assert!(slow % 2 == 1 && slow + F <= N, "the fast states begin with the first of a pair");
+    pub fn new(jacobian: &DMatrix<f64>, nominal: &[f64; N]) -> Self {
+        const { assert!(N.is_multiple_of(2) && FAST.is_multiple_of(2), "states come in pairs") }
         let all = jacobian.nrows();
         let scaled = DMatrix::from_fn(all, all, |i, j| jacobian[(i, j)] * nominal[j] / nominal[i]);
-        Self::decoupled(&scaled, slow, nominal).unwrap_or_else(|| Self {
-            slow,
-            out: columns(slow, &DMatrix::zeros(0, 0), |_, _| 1.0),
-            into: columns(slow, &DMatrix::zeros(0, 0), |_, _| 1.0),
-            blocks: fast_blocks(slow, &jacobian.view_range(slow.., slow..).into_owned()),
+        Self::decoupled(&scaled, nominal).unwrap_or_else(|| {
+            let fast = jacobian.view_range(SLOW.., SLOW..).into_owned();
+            let same = |i, j| f64::from(i == j);
+            Self {
+                out: columns(|i, j| same(i, SLOW + j)),
+                into: columns(same),
+                blocks: blocks(&fast),
+            }
         })
     }
 
-    fn decoupled(scaled: &DMatrix<f64>, slow: usize, nominal: &[f64; N]) -> Option<Self> {
-        let fast = scaled.view_range(slow.., slow..).into_owned();
-        let driven = scaled.view_range(..slow, slow..).into_owned();
-        let (shapes, blocks) = shapes(&fast)?;
+    fn decoupled(scaled: &DMatrix<f64>, nominal: &[f64; N]) -> Option<Self> {
+        let fast = scaled.view_range(SLOW.., SLOW..).into_owned();
+        let driven = scaled.view_range(..SLOW, SLOW..).into_owned();
+        let (shapes, own) = shapes(&fast)?;
         let inverse = shapes.clone().try_inverse()?;
         let well = shapes.amax() * inverse.amax() < WORST;
         // The slow states move by L_sf x_f, which is how L_sf L_ff^-1 x_f moves: without that they rest.
@@ -57,61 +58,64 @@ impl<const N: usize, const F: usize> Decoupling<N, F> {
         let out = stacked(&product(&carried, &shapes), &shapes);
         let into = stacked(&-carried, &inverse);
         // A fast coordinate is in typical sizes of the states, a slow one in the units of its state.
-        let unit = |i: usize| if i < slow { nominal[i] } else { 1.0 };
+        let unit = |i: usize| if i < SLOW { nominal[i] } else { 1.0 };
         well.then(|| Self {
-            slow,
-            out: columns(slow, &out, |i, _| nominal[i]),
-            into: columns(slow, &into, |i, j| unit(i) / nominal[slow + j]),
-            blocks: fast_blocks(slow, &blocks),
+            out: columns(|i, j| entry(&out, i, j) * nominal[i]),
+            into: columns(|i, j| {
+                let i = (i + SLOW) % N;
+                entry(&into, i, j) * unit(i) / nominal[SLOW + j]
+            }),
+            blocks: blocks(&own),
         })
     }
 
     /// A change of the states, from one of the coordinates.
     #[inline(always)]
     pub fn to_states(&self, coordinates: &[f64; N]) -> [f64; N] {
-        self.change(&self.out, coordinates)
+        let mut slow = [0.0; N];
+        for i in FAST..N {
+            slow[(i + SLOW) % N] = coordinates[i];
+        }
+        sum(slow, &self.out, coordinates)
     }
 
     /// A change of the coordinates, from one of the states.
     #[inline(always)]
     pub fn to_coordinates(&self, states: &[f64; N]) -> [f64; N] {
-        self.change(&self.into, states)
+        let slow = std::array::from_fn(|i| if i < FAST { 0.0 } else { states[(i + SLOW) % N] });
+        sum(slow, &self.into, &states[SLOW..])
     }
+}
 
-    #[inline(always)]
-    fn change(&self, columns: &[[f64; N]; F], x: &[f64; N]) -> [f64; N] {
-        let fast = self.slow..self.slow + F;
-        let mut sum = *x;
-        sum[fast.clone()].fill(0.0);
-        for (column, x) in columns.iter().zip(&x[fast]) {
-            for i in 0..N {
-                sum[i] += column[i] * x;
-            }
+fn columns<const N: usize, const FAST: usize>(
+    entry: impl Fn(usize, usize) -> f64,
+) -> [[f64; N]; FAST] {
+    std::array::from_fn(|j| std::array::from_fn(|i| entry(i, j)))
+}
+
+/// The blocks of a matrix of the first coordinates; the others are not moved.
+fn blocks<const N: usize>(matrix: &DMatrix<f64>) -> Blocks<N> {
+    Blocks::of(|i, j| entry(matrix, i, j))
+}
+
+/// An entry of a matrix, zero for a state that is not in use.
+fn entry(matrix: &DMatrix<f64>, i: usize, j: usize) -> f64 {
+    matrix.get((i, j)).map_or(0.0, |entry| *entry)
+}
+
+/// Adds a multiple of each column.
+#[inline(always)]
+fn sum<const N: usize, const FAST: usize>(
+    mut sum: [f64; N],
+    columns: &[[f64; N]; FAST],
+    multiples: &[f64],
+) -> [f64; N] {
+    for (column, x) in columns.iter().zip(&multiples[..FAST]) {
+        for i in 0..N {
+            sum[i] += column[i] * x;
         }
-        sum
     }
-}
-
-/// Columns of a change: those of a matrix, and of the identity for what it does not reach.
-fn columns<const N: usize, const F: usize>(
-    slow: usize,
-    matrix: &DMatrix<f64>,
-    scale: impl Fn(usize, usize) -> f64,
-) -> [[f64; N]; F] {
-    std::array::from_fn(|j| {
-        std::array::from_fn(|i| match matrix.get((i, j)) {
-            Some(entry) => entry * scale(i, j),
-            None => f64::from(i == slow + j),
-        })
-    })
-}
-
-/// The blocks of a matrix of the fast states; the others are not moved.
-fn fast_blocks<const N: usize>(slow: usize, matrix: &DMatrix<f64>) -> Blocks<N> {
-    Blocks::of(|row, column| {
-        let entry = row.checked_sub(slow).zip(column.checked_sub(slow));
-        entry.and_then(|entry| matrix.get(entry)).copied().unwrap_or(0.0)
-    })
+    sum
 }
 
 fn stacked(top: &DMatrix<f64>, bottom: &DMatrix<f64>) -> DMatrix<f64> {

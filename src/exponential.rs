@@ -58,8 +58,8 @@ fn node(stage: usize) -> f64 {
 
 /// The method with the oscillators of one system.
 #[derive(Debug, Clone)]
-pub struct Exponential<const N: usize, const F: usize> {
-    linear: Decoupling<N, F>,
+pub struct Exponential<const N: usize, const SLOW: usize, const FAST: usize> {
+    linear: Decoupling<N, SLOW, FAST>,
     longest: f64,
     /// Length of step for which the weights are, s.
     length: f64,
@@ -67,9 +67,9 @@ pub struct Exponential<const N: usize, const F: usize> {
     weights: [Function<N>; ROWS[STAGES + 1]],
 }
 
-impl<const N: usize, const F: usize> Exponential<N, F> {
+impl<const N: usize, const SLOW: usize, const FAST: usize> Exponential<N, SLOW, FAST> {
     /// The method that takes this part of the motion exactly.
-    pub fn new(linear: Decoupling<N, F>) -> Self {
+    pub fn new(linear: Decoupling<N, SLOW, FAST>) -> Self {
         let longest = LONGEST / linear.blocks.fastest;
         Self { linear, longest, length: 0.0, weights: [Function::ZERO; ROWS[STAGES + 1]] }
     }
@@ -143,7 +143,9 @@ const fn course(sources: &[usize], own: usize) -> [f64; DEGREE] {
     coefficients
 }
 
-impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
+impl<const N: usize, const SLOW: usize, const FAST: usize> Method<N>
+    for Exponential<N, SLOW, FAST>
+{
     fn longest(&self) -> f64 {
         self.longest
     }
@@ -156,8 +158,8 @@ impl<const N: usize, const F: usize> Method<N> for Exponential<N, F> {
 /// The same operations in the same order, so the same bits, but four states at a time where the processor
 /// can: whatever is always inlined is compiled again for its wider registers.
 #[multiversion(targets("x86_64+avx"))]
-fn in_widest<S: System<N>, const N: usize, const F: usize>(
-    method: &mut Exponential<N, F>,
+fn in_widest<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>(
+    method: &mut Exponential<N, SLOW, FAST>,
     attempt: &Attempt<S, N>,
 ) -> Trial<N> {
     method.portable(attempt)

@@ -48,8 +48,8 @@ fn difference_of<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
 }
 
 /// A step under way.
-pub(super) struct Step<'a, S, const N: usize, const F: usize> {
-    pub method: &'a Exponential<N, F>,
+pub(super) struct Step<'a, S, const N: usize, const SLOW: usize, const FAST: usize> {
+    pub method: &'a Exponential<N, SLOW, FAST>,
     pub attempt: &'a Attempt<'a, S, N>,
     /// What the weights leave of the step's length, s.
     pub left: f64,
@@ -67,7 +67,9 @@ struct Reached<const N: usize> {
     d: [f64; N],
 }
 
-impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
+impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
+    Step<'_, S, N, SLOW, FAST>
+{
     /// A stage from those before; the last is the end.
     #[inline(always)]
     fn reach<const STAGE: usize>(&self) -> Reached<N> {
@@ -87,14 +89,20 @@ impl<S: System<N>, const N: usize, const F: usize> Step<'_, S, N, F> {
             }
         }
         moved = sum_of(&moved, &blocks.times(&linear_in));
-        let drift = blocks.times(&moved);
-        for i in 0..N {
-            moved[i] += node * self.left * (self.pull[i] + drift[i]);
+        let mut drift = blocks.times(&moved);
+        let mut time = node * (h - self.left);
+        // Only where the step may end does it matter what the weights leave.
+        if node == 1.0 {
+            for i in 0..N {
+                moved[i] += self.left * (self.pull[i] + drift[i]);
+            }
+            drift = blocks.times(&moved);
+            time = *h;
         }
         let state = sum_of(x, &linear.to_states(&moved));
-        let rates = system.derivatives(t + node * h, &state);
+        let rates = system.derivatives(t + time, &state);
         let change = linear.to_coordinates(&difference_of(&rates, slope));
-        let d = difference_of(&change, &blocks.times(&moved));
+        let d = difference_of(&change, &drift);
         Reached { state, rates, d }
     }
 

@@ -18,7 +18,7 @@ pub struct Ready {
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
     /// Integrates between the master's instants.
-    pub method: Exponential<STATES, FAST>,
+    pub method: Exponential<STATES, SLOW, FAST>,
 }
 
 impl Ready {
@@ -72,11 +72,13 @@ impl Ready {
 
 /// Incidence, pitch rate and modes: the states that move fast.
 const FAST: usize = 2 + 2 * MODES;
+/// Those before them.
+const SLOW: usize = RIGID - 2;
 
 /// The method for a vehicle, its fast motion decoupled about steady flight.
-pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, FAST> {
+pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, SLOW, FAST> {
     let jacobian = Linear::new(vehicle, &steady.state, &steady.control).a;
-    Exponential::new(Decoupling::new(&jacobian, RIGID - 2, &NOMINAL))
+    Exponential::new(Decoupling::new(&jacobian, &NOMINAL))
 }
 
 /// Start values without trim, by the names of their parameters.
