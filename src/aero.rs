@@ -7,14 +7,28 @@ use crate::scalar::Scalar;
 
 /// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 + d3 d^3 + e a d in incidence a and elevator deflection d, rad.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Polynomial {
+pub struct Polynomial<C = f64> {
     /// Coefficients of a^0 to a^3.
-    pub alpha: [f64; 4],
+    pub alpha: [C; 4],
     /// Coefficients of d to d^3.
-    pub delta_e: [f64; 3],
+    pub delta_e: [C; 3],
     /// Coefficient of a d.
-    pub cross: f64,
+    pub cross: C,
 }
+
+/// Row of [`Aero::fits`] and of [`Elastic::per`]: C_L.
+pub const LIFT: usize = 0;
+/// Row of both: C_D.
+pub const DRAG: usize = 1;
+/// Row of both: C_M about the moment centre, without thrust.
+pub const MOMENT: usize = 2;
+/// Row of [`Aero::fits`]: C_T, in the incidence of the engine's inflow.
+pub const THRUST: usize = 3;
+/// Rows of [`Aero::fits`].
+pub const FITS: usize = 4;
+
+/// Polynomials side by side, of which a processor can take several at a time.
+pub type Fits = Polynomial<[f64; FITS]>;
 
 impl Polynomial {
     fn new(data: &PolynomialData) -> Self {
@@ -33,25 +47,17 @@ impl Polynomial {
     }
 
     /// The part that depends on the incidence.
-    #[inline]
+    #[inline(always)]
     pub fn body<S: Scalar>(&self, alpha: S) -> S {
         let [c0, c1, c2, c3] = self.alpha;
         ((alpha * c3 + c2) * alpha + c1) * alpha + c0
     }
 
     /// Whole polynomial.
-    #[inline]
+    #[inline(always)]
     pub fn at<S: Scalar>(&self, alpha: S, delta_e: S) -> S {
         let [d1, d2, d3] = self.delta_e;
         self.body(alpha) + ((delta_e * d3 + d2) * delta_e + alpha * self.cross + d1) * delta_e
-    }
-
-    /// The elevator's own part, odd in the deflection, over its slope at zero, rad.
-    #[inline]
-    pub fn elevator<S: Scalar>(&self, delta_e: S) -> S {
-        let [d1, _, d3] = self.delta_e;
-        let bend = if d3 == 0.0 { 0.0 } else { d3 / d1 };
-        (delta_e * delta_e * bend + 1.0) * delta_e
     }
 
     /// d/da of the whole polynomial, per rad.
@@ -61,12 +67,24 @@ impl Polynomial {
     }
 }
 
-/// How one coefficient answers the modal coordinates, flexible modes first, then slosh modes: per
-/// metre of eta, and per metre of eta-dot over V. In pairs, as in the state.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct ElasticTerm<C = f64> {
-    /// d/d eta and d/d(eta-dot/V), 1/m.
-    pub per: [[C; 2]; MODES],
+impl Fits {
+    fn of(rows: [Polynomial; FITS]) -> Self {
+        Self {
+            alpha: std::array::from_fn(|power| rows.map(|row| row.alpha[power])),
+            delta_e: std::array::from_fn(|power| rows.map(|row| row.delta_e[power])),
+            cross: rows.map(|row| row.cross),
+        }
+    }
+
+    /// One of them.
+    #[inline(always)]
+    pub fn row(&self, row: usize) -> Polynomial {
+        Polynomial {
+            alpha: self.alpha.map(|power| power[row]),
+            delta_e: self.delta_e.map(|power| power[row]),
+            cross: self.cross[row],
+        }
+    }
 }
 
 /// One number for each mode, flexible modes first, then slosh modes.
@@ -82,8 +100,6 @@ pub struct ModalForces<C = f64> {
     pub delta_e: PerMode<C>,
     /// Of the lift that the plume adds, C_L,phi phi.
     pub plume: PerMode<C>,
-    /// By each mode k: N^eta_k, 1/m, and what there is per eta-dot_k/V, 1/m.
-    pub elastic: [[PerMode<C>; 2]; MODES],
     /// Per q/V, m.
     pub pitch_rate: PerMode<C>,
     /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
@@ -92,18 +108,21 @@ pub struct ModalForces<C = f64> {
     pub thrust_couple: PerMode<C>,
 }
 
+/// Row of [`Elastic::per`] in the place of the thrust: incidence of the engine's inflow, rad.
+pub const INFLOW: usize = THRUST;
+/// Row of [`Elastic::per`] of the first mode's force; those of the others follow.
+pub const FORCE: usize = FITS;
+/// Rows of [`Elastic::per`].
+pub const ANSWERS: usize = FORCE + MODES;
+
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Elastic<C = f64> {
-    /// C_L^eta.
-    pub lift: ElasticTerm<C>,
-    /// C_D^eta.
-    pub drag: ElasticTerm<C>,
-    /// C_M^eta about the moment centre.
-    pub moment: ElasticTerm<C>,
-    /// Incidence of the engine's inflow, rad.
-    pub inflow: ElasticTerm<C>,
-    /// N_i.
+    /// By each mode, flexible modes first, then slosh modes: what answers to eta, 1/m, and to
+    /// eta-dot/V, 1/m; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre,
+    /// the incidence of the engine's inflow, and N_i over qbar S.
+    pub per: [[[C; ANSWERS]; 2]; MODES],
+    /// The rest of N_i.
     pub force: ModalForces<C>,
 }
 
@@ -124,22 +143,12 @@ pub struct Aero {
     pub elastic_scale: f64,
     /// Elevator deflection of the elastic derivatives, rad.
     pub elastic_delta_e: f64,
-    /// C_L.
-    pub lift: Polynomial,
-    /// C_D.
-    pub drag: Polynomial,
-    /// C_M about the moment centre, without thrust.
-    pub moment: Polynomial,
-    /// C_T at phi = 0.
-    pub thrust: Polynomial,
-    /// dC_T/dphi.
-    pub thrust_phi: Polynomial,
-    /// dC_L/dphi, in the incidence.
-    pub lift_phi: Polynomial,
-    /// dC_D/dphi.
-    pub drag_phi: Polynomial,
-    /// dC_M/dphi, without thrust.
-    pub moment_phi: Polynomial,
+    /// C_L, C_D, C_M and C_T without fuel.
+    pub fits: Fits,
+    /// What they gain by the fuel ratio, in the incidence.
+    pub fits_phi: Fits,
+    /// The elevator's lift is delta_e + this delta_e^3, times its slope at zero, 1/rad^2.
+    pub elevator_bend: f64,
     /// Where all this holds.
     pub envelope: Envelope,
 }
@@ -150,6 +159,9 @@ impl Aero {
         let optional = |fit: &Option<PolynomialData>| {
             fit.as_ref().map_or_else(Polynomial::default, Polynomial::new)
         };
+        let fits = [&data.lift, &data.drag, &data.moment, &data.thrust].map(Polynomial::new);
+        let fits = Fits::of(fits);
+        let [d1, _, d3] = fits.row(LIFT).delta_e;
         Self {
             area: data.reference.area_m2_per_m.value,
             chord: data.reference.chord_m.value,
@@ -158,14 +170,14 @@ impl Aero {
             elastic_alpha: data.reference.elastic_alpha_rad.value,
             elastic_scale: data.reference.elastic_scale.value,
             elastic_delta_e: data.reference.elastic_delta_e_rad.as_ref().map_or(0.0, |q| q.value),
-            lift: Polynomial::new(&data.lift),
-            drag: Polynomial::new(&data.drag),
-            moment: Polynomial::new(&data.moment),
-            thrust: Polynomial::new(&data.thrust),
-            thrust_phi: Polynomial::new(&data.thrust_phi),
-            lift_phi: optional(&data.lift_phi),
-            drag_phi: optional(&data.drag_phi),
-            moment_phi: optional(&data.moment_phi),
+            fits,
+            fits_phi: Fits::of([
+                optional(&data.lift_phi),
+                optional(&data.drag_phi),
+                optional(&data.moment_phi),
+                Polynomial::new(&data.thrust_phi),
+            ]),
+            elevator_bend: if d3 == 0.0 { 0.0 } else { d3 / d1 },
             envelope: Envelope {
                 alpha: data.envelope.alpha_rad.value,
                 mach: data.envelope.mach.value,

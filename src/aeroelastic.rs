@@ -14,7 +14,7 @@
 //! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
 //! the air, and a beam that feels one without the other seems to spin.
 
-use crate::aero::{Aero, Elastic};
+use crate::aero::{Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
@@ -104,14 +104,15 @@ impl Strips {
 /// The two strips and the elevator.
 fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
     let at = aero.elastic_delta_e;
-    let [elevator_lift, elevator_moment] =
-        [&aero.lift, &aero.moment].map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
+    let [elevator_lift, elevator_moment] = [LIFT, MOMENT]
+        .map(|row| aero.fits.row(row))
+        .map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
     // Lift and nose-up moment of the body without the elevator, per power of the incidence.
     let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
         let own = f64::from(power == 1);
         [
-            aero.lift.alpha[power] - own * elevator_lift,
-            aero.moment.alpha[power] - own * elevator_moment,
+            aero.fits.alpha[power][LIFT] - own * elevator_lift,
+            aero.fits.alpha[power][MOMENT] - own * elevator_moment,
         ]
     });
     let [fore, aft] = [strips.fore, strips.aft].map(|strip| strip.about(aero.moment_centre));
@@ -138,7 +139,7 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Sur
 
 /// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
 fn plume_station(aero: &Aero) -> Option<f64> {
-    let [lift, moment] = [&aero.lift_phi, &aero.moment_phi].map(|fit| fit.body(aero.elastic_alpha));
+    let [lift, moment] = [LIFT, MOMENT].map(|row| aero.fits_phi.row(row).body(aero.elastic_alpha));
     (lift != 0.0).then(|| aero.moment_centre - aero.chord * moment / lift)
 }
 
@@ -161,22 +162,23 @@ pub fn derive(
         surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>() * scale
     };
     let [drag_slope, lift_slope] =
-        [&aero.drag, &aero.lift].map(|fit| fit.slope(aero.elastic_alpha, aero.elastic_delta_e));
+        [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
     let drag_per_lift = drag_slope / lift_slope;
     let shift = mass_centre - aero.moment_centre;
 
     let mut elastic = Elastic::default();
     for i in 0..modes.shape.len() {
-        elastic.lift.per[i][0] = -answer(&|m| m.slope[i]);
-        elastic.lift.per[i][1] = -answer(&|m| m.phi[i]);
-        elastic.moment.per[i][0] = answer(&|m| m.x_slope[i]) / aero.chord;
-        elastic.moment.per[i][1] = answer(&|m| m.x_phi[i]) / aero.chord;
+        let [per_eta, per_rate] = &mut elastic.per[i];
+        per_eta[LIFT] = -answer(&|m| m.slope[i]);
+        per_rate[LIFT] = -answer(&|m| m.phi[i]);
+        per_eta[MOMENT] = answer(&|m| m.x_slope[i]) / aero.chord;
+        per_rate[MOMENT] = answer(&|m| m.x_phi[i]) / aero.chord;
         // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
-        elastic.drag.per[i][0] = drag_per_lift * elastic.lift.per[i][0];
-        elastic.drag.per[i][1] = drag_per_lift * elastic.lift.per[i][1];
+        per_eta[DRAG] = drag_per_lift * per_eta[LIFT];
+        per_rate[DRAG] = drag_per_lift * per_rate[LIFT];
         // The engine swallows what the fore-body has turned.
-        elastic.inflow.per[i][0] = -surfaces[0].mean.slope[i] * scale;
-        elastic.inflow.per[i][1] = -surfaces[0].mean.phi[i] * scale;
+        per_eta[INFLOW] = -surfaces[0].mean.slope[i] * scale;
+        per_rate[INFLOW] = -surfaces[0].mean.phi[i] * scale;
 
         let per_mass = 1.0 / modes.modal_mass[i];
         let load = |power: usize| {
@@ -187,15 +189,16 @@ pub fn derive(
         for (power, alpha) in force.alpha.iter_mut().enumerate() {
             alpha[i] = load(power);
         }
-        force.delta_e[i] = aero.lift.delta_e[0] * surfaces[2].mean.phi[i] * per_mass;
+        force.delta_e[i] = aero.fits.delta_e[0][LIFT] * surfaces[2].mean.phi[i] * per_mass;
         force.thrust_across[i] = shape.w_at(&centre) * per_mass;
         force.plume[i] = plume.map_or(0.0, |place| shape.w_at(&place) * per_mass);
         // Nose up and w up: the couple works on a falling slope.
         force.thrust_couple[i] = -aero.thrust_arm * shape.slope_at(&strips.engine) * per_mass;
         force.pitch_rate[i] = answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass;
         for k in 0..modes.shape.len() {
-            force.elastic[k][0][i] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
-            force.elastic[k][1][i] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
+            let [per_eta, per_rate] = &mut elastic.per[k];
+            per_eta[FORCE + i] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
+            per_rate[FORCE + i] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
         }
     }
     elastic

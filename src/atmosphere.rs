@@ -86,6 +86,7 @@ impl Atmosphere {
 
     /// Air at the geometric altitude `h` (m). Below sea level and above the last layer the nearest
     /// edge is taken: an integrator may look there, a flight never gets there.
+    #[inline]
     pub fn air<S: Scalar>(&self, h: S) -> Air<S> {
         let (layer, height) = self.layer(h);
         let temperature = layer.temperature(height);

@@ -6,18 +6,20 @@
 
 mod airframe;
 mod burning;
+mod modal;
 mod outputs;
 mod stream;
 
 pub use airframe::{Airframe, COEFFICIENTS};
 pub use outputs::{Loads, Outputs};
 
-use crate::aero::{Aero, ElasticTerm, PerMode};
+use crate::aero::Aero;
 use crate::atmosphere::Atmosphere;
 use crate::burn::Burn;
 use crate::intake::Intake;
 use crate::modes::MODES;
 use crate::scalar::{Over, Scalar};
+use modal::Coefficients;
 use std::sync::Arc;
 use stream::Stream;
 
@@ -62,6 +64,17 @@ pub struct Vehicle {
     pub limits: Control,
 }
 
+/// What the air makes of a state.
+struct Met<S> {
+    stream: Stream<S>,
+    /// One over the speed through the air, s/m.
+    per_speed: S,
+    /// Dynamic pressure by the reference area, N/m.
+    force: S,
+    coefficients: Coefficients<S>,
+    loads: Loads<S>,
+}
+
 impl Vehicle {
     /// Number of states in motion at one fuel level: 5, 11 or 15.
     pub fn states(&self) -> usize {
@@ -70,47 +83,36 @@ impl Vehicle {
 
     /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
-        let axis = x[3].sin_cos();
+        let still = S::constant(0.0);
         match &self.burn {
-            None => self.loads_on(&self.airframe, axis, x, u),
-            Some(burn) => self.loads_on(&burn.airframe(x[FUEL]), axis, x, u),
+            None => self.met(&self.airframe, x, u, still).loads,
+            Some(burn) => self.met(&burn.airframe(x[FUEL]), x, u, still).loads,
         }
     }
 
-    /// Eq. (4), with the sine and cosine of the incidence.
+    /// What the air makes of a state, with the loads of eq. (4).
     #[inline]
-    fn loads_on<C: Scalar, S: Scalar + Over<C>>(
+    fn met<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        (sin, cos): (S, S),
         x: &State<S>,
         u: &Control<S>,
-    ) -> Loads<S> {
-        let (speed, altitude, alpha) = (x[0], x[1], x[3]);
-        let (delta_e, phi) = (u[0], u[1]);
-        let air = self.atmosphere.air(altitude);
+        gust: S,
+    ) -> Met<S> {
+        let stream = Stream::new(x, gust);
+        let (speed, alpha, (sin, cos)) = (stream.speed, stream.incidence, stream.axis);
+        let air = self.atmosphere.air(x[1]);
         let qbar = air.density * speed * speed * 0.5;
         let force = qbar * self.aero.area;
         let per_speed = S::constant(1.0) / speed;
-        let terms = &airframe.elastic;
-        let elastic = |term: &ElasticTerm<C>| elastic_sum(term, x, per_speed);
-
-        let c_l = self.aero.lift.at(alpha, delta_e)
-            + phi * self.aero.lift_phi.body(alpha)
-            + elastic(&terms.lift);
-        let c_d = self.aero.drag.at(alpha, delta_e)
-            + phi * self.aero.drag_phi.body(alpha)
-            + elastic(&terms.drag);
-        let c_m = self.aero.moment.at(alpha, delta_e)
-            + phi * self.aero.moment_phi.body(alpha)
-            + elastic(&terms.moment);
-        let inflow = alpha + elastic(&terms.inflow);
-        let c_t = self.aero.thrust.body(inflow) + phi * self.aero.thrust_phi.body(inflow);
+        let coefficients =
+            modal::coefficients(&self.aero, &airframe.elastic, x, u, [alpha, per_speed]);
+        let [c_l, c_d, c_m, c_t] = coefficients.body;
 
         let c_n = c_l * cos + c_d * sin;
         let shift = airframe.mass_centre - self.aero.moment_centre;
         let thrust = force * c_t;
-        Loads {
+        let loads = Loads {
             qbar,
             mach: speed / air.sound_speed,
             lift: force * c_l,
@@ -118,7 +120,8 @@ impl Vehicle {
             thrust,
             moment: thrust * self.aero.thrust_arm + force * (c_m * self.aero.chord + c_n * shift),
             normal: force * c_n,
-        }
+        };
+        Met { stream, per_speed, force, coefficients, loads }
     }
 
     /// Eq. (3): time derivatives of all states, in air that rises at `gust`, m/s.
@@ -127,22 +130,18 @@ impl Vehicle {
     /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
     /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
-        if let Some(burn) = &self.burn {
-            return self.burning(burn, x, u, gust).0;
+        match &self.burn {
+            None => self.rates(&self.airframe, &self.met(&self.airframe, x, u, gust), x),
+            Some(burn) => self.burning(burn, x, u, gust).0,
         }
-        let stream = Stream::new(x, gust);
-        let loads = self.loads_on(&self.airframe, stream.axis, &stream.state, u);
-        self.rates(&self.airframe, &stream, &loads, x, u)
     }
 
     /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
     pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
-        if let Some(burn) = &self.burn {
-            return self.burning(burn, x, u, gust).1;
+        match &self.burn {
+            None => self.shown(&self.airframe, self.met(&self.airframe, x, u, gust).loads, x),
+            Some(burn) => self.burning(burn, x, u, gust).1,
         }
-        let stream = Stream::new(x, gust);
-        let loads = self.loads_on(&self.airframe, stream.axis, &stream.state, u);
-        self.shown(&self.airframe, loads, x)
     }
 
     /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
@@ -150,22 +149,20 @@ impl Vehicle {
         if let Some(burn) = &self.burn {
             return self.burning(burn, x, u, gust);
         }
-        let stream = Stream::new(x, gust);
-        let loads = self.loads_on(&self.airframe, stream.axis, &stream.state, u);
-        let rates = self.rates(&self.airframe, &stream, &loads, x, u);
-        (rates, self.shown(&self.airframe, loads, x))
+        let met = self.met(&self.airframe, x, u, gust);
+        let rates = self.rates(&self.airframe, &met, x);
+        (rates, self.shown(&self.airframe, met.loads, x))
     }
 
-    /// Eq. (3) under known loads, at one fuel level.
+    /// Eq. (3) in known air, at one fuel level.
     #[inline]
     fn rates<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        stream: &Stream<S>,
-        loads: &Loads<S>,
+        met: &Met<S>,
         x: &State<S>,
-        u: &Control<S>,
     ) -> State<S> {
+        let Met { stream, loads, .. } = met;
         let [speed, altitude, gamma, _, q, ..] = *x;
         let (sin_alpha, cos_alpha) = stream.body;
         let (sin_turn, cos_turn) = stream.turn;
@@ -189,54 +186,13 @@ impl Vehicle {
         if self.modes == 0 {
             return rates;
         }
-        let modal = self.modal_accelerations(airframe, stream.axis.0, loads, &stream.state, u);
+        let modal = modal::accelerations(airframe, met, x);
         for (i, acceleration) in modal.into_iter().enumerate().take(self.modes) {
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
             rates[eta_dot] = acceleration;
         }
         rates
-    }
-
-    /// Second derivatives of the modal coordinates, of a state as the air meets it. Term by term
-    /// for all modes at once; a function of its own, as compilers make two operations one where
-    /// results go to memory side by side.
-    #[inline(never)]
-    fn modal_accelerations<C: Scalar, S: Scalar + Over<C>>(
-        &self,
-        airframe: &Airframe<C>,
-        sin_incidence: S,
-        loads: &Loads<S>,
-        x: &State<S>,
-        u: &Control<S>,
-    ) -> [S; MODES] {
-        let (alpha, q) = (x[3], x[4]);
-        let per_speed = S::constant(1.0) / x[0];
-        let n = &airframe.elastic.force;
-        // Over qbar S.
-        let mut air = n.alpha[0].map(S::of);
-        add(&mut air, alpha, &n.alpha[1]);
-        add(&mut air, alpha * alpha, &n.alpha[2]);
-        add(&mut air, self.aero.lift.elevator(u[0]), &n.delta_e);
-        add(&mut air, u[1] * self.aero.lift_phi.body(alpha), &n.plume);
-        add(&mut air, q * per_speed, &n.pitch_rate);
-        for (k, [per_eta, per_rate]) in n.elastic.iter().enumerate() {
-            add(&mut air, x[RIGID + 2 * k], per_eta);
-            add(&mut air, x[RIGID + 2 * k + 1] * per_speed, per_rate);
-        }
-        let mut sum = airframe.floor.map(S::of);
-        add(&mut sum, loads.thrust * sin_incidence, &n.thrust_across);
-        add(&mut sum, loads.thrust, &n.thrust_couple);
-        let force = loads.qbar * self.aero.area;
-        for i in 0..MODES {
-            let stiffness = x[RIGID + 2 * i] * airframe.stiffness[i][i];
-            sum[i] = sum[i] + force * air[i] - stiffness;
-        }
-        for k in 0..MODES {
-            let damping = std::array::from_fn(|i| airframe.damping[i][k]);
-            add(&mut sum, -x[RIGID + 2 * k + 1], &damping);
-        }
-        sum
     }
 
     fn shown<C: Scalar, S: Scalar + Over<C>>(
@@ -264,29 +220,5 @@ impl Vehicle {
     pub fn saturate(&self, u: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.ranges();
         [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
-    }
-}
-
-/// Sum of an elastic term over the modal coordinates and their rates.
-#[inline]
-fn elastic_sum<C: Copy, S: Scalar + Over<C>>(
-    term: &ElasticTerm<C>,
-    x: &State<S>,
-    per_speed: S,
-) -> S {
-    let mut sums = [S::constant(0.0); 2];
-    for (i, per) in term.per.iter().enumerate() {
-        for part in 0..2 {
-            sums[part] = sums[part] + x[RIGID + 2 * i + part] * per[part];
-        }
-    }
-    sums[0] + sums[1] * per_speed
-}
-
-/// Adds a term to a quantity of each mode.
-#[inline]
-fn add<C: Copy, S: Scalar + Over<C>>(sum: &mut [S; MODES], factor: S, per_mode: &PerMode<C>) {
-    for (sum, per) in sum.iter_mut().zip(per_mode) {
-        *sum = *sum + factor * *per;
     }
 }

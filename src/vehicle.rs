@@ -201,6 +201,7 @@ impl Body {
         let Self { beam, oscillators, modes, strips, properties, inertia_left } = self;
         // A force m g up on each sloshing mass and down on its tank.
         let gravity = effective_gravity(data, &build.condition);
+        let damping = modes.damping(oscillators, &set.inertia.structural_damping.value);
         let floor = std::array::from_fn(|i| {
             let weights = oscillators.iter().zip(&modes.slosh_displacement);
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
@@ -212,7 +213,7 @@ impl Body {
             mass_centre: properties.centre_m,
             elastic: derive(&Aero::new(set), beam, modes, strips, properties.centre_m),
             stiffness: modes.stiffness(),
-            damping: modes.damping(oscillators, &set.inertia.structural_damping.value),
+            damping: std::array::from_fn(|k| damping.map(|row| row[k])),
             floor,
             slosh: modes.slosh_displacement,
             turning: Default::default(),

@@ -4,7 +4,7 @@
 
 mod model;
 
-use ahv::aero::{Aero, Elastic, Polynomial};
+use ahv::aero::{Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
 use ahv::aeroelastic::{Strips, derive};
 use ahv::beam::Beam;
 use ahv::hermite::Shape;
@@ -46,11 +46,11 @@ fn rigid_motions(set: AeroSet) -> Case {
 fn verif_a_rigid_rotation_is_an_incidence() {
     for set in UNSCALED {
         let Case { aero, elastic, .. } = rigid_motions(set);
-        let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
-        assert_close("C_L", elastic.lift.per[1][0], -slope(&aero.lift), ROUNDING);
-        assert_close("C_M", elastic.moment.per[1][0], -slope(&aero.moment), ROUNDING);
-        assert_close("C_D", elastic.drag.per[1][0], -slope(&aero.drag), ROUNDING);
-        assert_close("inflow", elastic.inflow.per[1][0], -1.0, ROUNDING);
+        let slope = |row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e);
+        assert_close("C_L", elastic.per[1][0][LIFT], -slope(LIFT), ROUNDING);
+        assert_close("C_M", elastic.per[1][0][MOMENT], -slope(MOMENT), ROUNDING);
+        assert_close("C_D", elastic.per[1][0][DRAG], -slope(DRAG), ROUNDING);
+        assert_close("inflow", elastic.per[1][0][INFLOW], -1.0, ROUNDING);
     }
 }
 
@@ -58,12 +58,12 @@ fn verif_a_rigid_rotation_is_an_incidence() {
 fn verif_a_heave_velocity_is_an_incidence() {
     for set in UNSCALED {
         let Case { aero, elastic, .. } = rigid_motions(set);
-        let slope = |fit: &Polynomial| fit.slope(aero.elastic_alpha, aero.elastic_delta_e);
-        assert_close("C_L", elastic.lift.per[0][1], -slope(&aero.lift), ROUNDING);
-        assert_close("C_M", elastic.moment.per[0][1], -slope(&aero.moment), ROUNDING);
-        assert_close("C_D", elastic.drag.per[0][1], -slope(&aero.drag), ROUNDING);
+        let slope = |row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e);
+        assert_close("C_L", elastic.per[0][1][LIFT], -slope(LIFT), ROUNDING);
+        assert_close("C_M", elastic.per[0][1][MOMENT], -slope(MOMENT), ROUNDING);
+        assert_close("C_D", elastic.per[0][1][DRAG], -slope(DRAG), ROUNDING);
         assert!(
-            elastic.lift.per[0][0].abs() < ROUNDING && elastic.moment.per[0][0].abs() < ROUNDING
+            elastic.per[0][0][LIFT].abs() < ROUNDING && elastic.per[0][0][MOMENT].abs() < ROUNDING
         );
     }
 }
@@ -71,7 +71,7 @@ fn verif_a_heave_velocity_is_an_incidence() {
 #[test]
 fn verif_slope_of_a_fit_counts_the_elevator() {
     // C_D of shock_expansion has a term in alpha delta_e, as large as the slope without it.
-    let drag = Aero::new(&data().shock_expansion).drag;
+    let drag = Aero::new(&data().shock_expansion).fits.row(DRAG);
     let (alpha, delta_e, step) = (0.03, 0.16, 1e-4);
     let quotient = (drag.at(alpha + step, delta_e) - drag.at(alpha - step, delta_e)) / (2.0 * step);
     assert!(drag.cross != 0.0);
@@ -84,18 +84,19 @@ fn verif_loads_add_up_to_the_published_lift_and_moment() {
     let ([heave, pitch], force) = ([0, 1], elastic.force);
     for power in 0..3 {
         // Work on a heave is lift; work on a nose-down pitch is minus the nose-up moment.
-        let [lift, moment] = [aero.lift.alpha[power], -aero.chord * aero.moment.alpha[power]];
+        let [lift, moment] =
+            [aero.fits.alpha[power][LIFT], -aero.chord * aero.fits.alpha[power][MOMENT]];
         assert!((force.alpha[power][heave] - lift).abs() < ROUNDING, "lift, power {power}");
         assert!(
             (force.alpha[power][pitch] - moment).abs() < 100.0 * ROUNDING,
             "moment, power {power}"
         );
     }
-    assert_close("elevator lift", force.delta_e[heave], aero.lift.delta_e[0], ROUNDING);
+    assert_close("elevator lift", force.delta_e[heave], aero.fits.delta_e[0][LIFT], ROUNDING);
     assert_close(
         "elevator moment",
         force.delta_e[pitch],
-        -aero.chord * aero.moment.delta_e[0],
+        -aero.chord * aero.fits.delta_e[0][MOMENT],
         ROUNDING,
     );
 }
@@ -131,7 +132,7 @@ fn verif_pitch_rate_and_pitching_shape_are_the_same_motion() {
     assert_eq!(centre, aero.moment_centre);
     for i in 0..2 {
         let force = &elastic.force;
-        assert_close("rate", force.pitch_rate[i], -force.elastic[1][1][i], ROUNDING);
+        assert_close("rate", force.pitch_rate[i], -elastic.per[1][1][FORCE + i], ROUNDING);
     }
 }
 
@@ -146,7 +147,7 @@ fn verif_the_air_damps_every_mode() {
         let n = vehicle.modes;
         let damping = nalgebra::DMatrix::from_fn(n, n, |i, k| {
             let entry =
-                |i: usize, k: usize| vehicle.airframe.elastic.force.elastic[k][1][i] * mass[i];
+                |i: usize, k: usize| vehicle.airframe.elastic.per[k][1][FORCE + i] * mass[i];
             0.5 * (entry(i, k) + entry(k, i))
         });
         let eigenvalues = damping.symmetric_eigenvalues();
@@ -163,9 +164,9 @@ fn verif_two_strips_are_plausible() {
     let data = data();
     let length = data.vehicle.geometry.length_m.value;
     let fore = data.vehicle.geometry.fore_body_m.value;
-    let [lift, arm] = [-elastic.lift.per[1][0], elastic.moment.per[1][0] * aero.chord];
-    let elevator = aero.lift.delta_e[0];
-    let elevator_x = aero.moment_centre - aero.chord * aero.moment.delta_e[0] / elevator;
+    let [lift, arm] = [-elastic.per[1][0][LIFT], elastic.per[1][0][MOMENT] * aero.chord];
+    let elevator = aero.fits.delta_e[0][LIFT];
+    let elevator_x = aero.moment_centre - aero.chord * aero.fits.delta_e[0][MOMENT] / elevator;
     // From total lift slope and its arm, by hand.
     let (body, body_arm) = (lift - elevator, arm - elevator * (elevator_x - aero.moment_centre));
     let [x1, x2] = [0.5 * fore, 0.5 * (fore + length)].map(|x| x - aero.moment_centre);

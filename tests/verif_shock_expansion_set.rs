@@ -3,7 +3,7 @@
 
 mod model;
 
-use ahv::aero::Aero;
+use ahv::aero::{Aero, FORCE, LIFT};
 use ahv::aeroelastic::{Strips, derive};
 use ahv::atmosphere::Atmosphere;
 use ahv::beam::Beam;
@@ -82,11 +82,11 @@ fn verif_panels_turn_like_the_whole_vehicle() {
         (run.lift() * cos + run.drag() * sin) / (qbar * aero.area)
     };
     let slope = (up(attitude.alpha + 1e-4) - up(attitude.alpha - 1e-4)) / 2e-4;
-    assert_close("lift", -direct.lift.per[0][0], slope, 0.02);
+    assert_close("lift", -direct.per[0][0][LIFT], slope, 0.02);
     // The fit's own slope, over a wider range, is near it; so is that of the strips.
     let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
     let strips = derive(&aero, &beam, &modes, &strips, aero.moment_centre);
-    assert_close("strips", strips.lift.per[0][0], direct.lift.per[0][0], 0.15);
+    assert_close("strips", strips.per[0][0][LIFT], direct.per[0][0][LIFT], 0.15);
 }
 
 #[test]
@@ -105,7 +105,7 @@ fn verif_strips_stand_for_panels_within_the_stated_bound() {
         // What damps or drives each mode by itself has the same sign and size.
         for i in 0..FLEXIBLE {
             let [strip, panel] =
-                [&vehicle.airframe.elastic, &direct].map(|elastic| elastic.force.elastic[i][1][i]);
+                [&vehicle.airframe.elastic, &direct].map(|elastic| elastic.per[i][1][FORCE + i]);
             assert!(strip < 0.0 && panel < 0.0, "{configuration:?}, mode {i}");
             assert_close("damping", strip, panel, STRIPS);
         }

@@ -69,6 +69,9 @@ pub fn run(options: &cli::Modes) -> Result<()> {
     }
     let omega = &modes.omega_rad_per_s;
     let ratio = |i: usize| vehicle.airframe.damping[i][i] / (2.0 * omega[i]);
+    let damping = |i: usize| -> Vec<f64> {
+        vehicle.airframe.damping[..count].iter().map(|slowed| slowed[i]).collect()
+    };
     let slosh = |i: usize| modes.slosh_displacement.map(|tank| tank[i]);
     if options.json {
         let list: Vec<_> = (0..count)
@@ -78,7 +81,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
                     "omega_rad_per_s": omega[i],
                     "modal_mass_kg_per_m": modes.modal_mass[i],
                     "damping_ratio": ratio(i),
-                    "damping_per_s": &vehicle.airframe.damping[i][..count],
+                    "damping_per_s": damping(i),
                     "slosh_displacement": slosh(i),
                     "beam_energy_share": modes.beam_energy_share[i],
                 })
@@ -115,7 +118,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
     println!("\nDamping matrix, 1/s");
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {
-        let cells = vehicle.airframe.damping[i][..count].iter().map(|value| number(*value));
+        let cells = damping(i).into_iter().map(number);
         rows.push(std::iter::once(name(i)).chain(cells).collect());
     }
     print!("{}", table(&rows));

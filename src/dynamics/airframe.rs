@@ -18,7 +18,7 @@ pub struct Airframe<C = f64> {
     /// Modal stiffness matrix, 1/s^2: eta-dd + D eta-d + K eta = N. Diagonal, with the squares of
     /// the frequencies, until fuel burns.
     pub stiffness: [PerMode<C>; MODES],
-    /// Modal damping matrix D, 1/s.
+    /// Modal damping matrix D, 1/s, in columns: how the rate of each mode slows all of them.
     pub damping: [PerMode<C>; MODES],
     /// Modal acceleration by which the tanks' floors carry the liquid's weight, m/s^2: the springs
     /// of the sloshing masses bear only what deviates from steady flight.
@@ -35,25 +35,21 @@ pub const COEFFICIENTS: usize = size_of::<Airframe>() / size_of::<f64>();
 
 impl<C> Airframe<C> {
     /// All numbers, in a fixed order.
-    fn parts(&mut self) -> [&mut [C]; 19] {
+    fn parts(&mut self) -> [&mut [C]; 15] {
         use std::slice::from_mut as one;
         let Self { mass, inertia, mass_centre, elastic, .. } = self;
         let Self { stiffness, damping, floor, slosh, turning, .. } = self;
-        let Elastic { lift, drag, moment, inflow, force } = elastic;
-        let ModalForces { alpha, delta_e, plume, elastic, .. } = force;
+        let Elastic { per, force } = elastic;
+        let ModalForces { alpha, delta_e, plume, .. } = force;
         let ModalForces { pitch_rate, thrust_across, thrust_couple, .. } = force;
         [
             one(mass),
             one(inertia),
             one(mass_centre),
-            lift.per.as_flattened_mut(),
-            drag.per.as_flattened_mut(),
-            moment.per.as_flattened_mut(),
-            inflow.per.as_flattened_mut(),
+            per.as_flattened_mut().as_flattened_mut(),
             alpha.as_flattened_mut(),
             delta_e,
             plume,
-            elastic.as_flattened_mut().as_flattened_mut(),
             pitch_rate,
             thrust_across,
             thrust_couple,

@@ -1,7 +1,6 @@
 //! Flight with fuel that burns.
 
-use super::stream::Stream;
-use super::{Control, FUEL, Outputs, RIGID, State, Vehicle, elastic_sum};
+use super::{Control, FUEL, Outputs, RIGID, State, Vehicle};
 use crate::burn::Burn;
 use crate::scalar::Scalar;
 
@@ -21,16 +20,13 @@ impl Vehicle {
         gust: S,
     ) -> (State<S>, Outputs<S>) {
         let airframe = burn.airframe(x[FUEL]);
-        let stream = Stream::new(x, gust);
-        let loads = self.loads_on(&airframe, stream.axis, &stream.state, u);
-        let mut rates = self.rates(&airframe, &stream, &loads, x, u);
+        let met = self.met(&airframe, x, u, gust);
+        let mut rates = self.rates(&airframe, &met, x);
 
-        let [speed, _, _, incidence, ..] = stream.state;
-        let per_speed = S::constant(1.0) / speed;
-        let inflow = incidence + elastic_sum(&airframe.elastic.inflow, x, per_speed);
         // Density times speed.
-        let mass_flux = loads.qbar * 2.0 * per_speed;
-        let fuel_rate = -self.intake.fuel_flow(mass_flux, loads.mach, inflow, u[1]);
+        let mass_flux = met.loads.qbar * 2.0 * met.per_speed;
+        let fuel_rate =
+            -self.intake.fuel_flow(mass_flux, met.loads.mach, met.coefficients.inflow, u[1]);
         rates[FUEL] = fuel_rate;
         for i in 0..self.modes {
             let mut coupling = S::constant(0.0);
@@ -43,7 +39,7 @@ impl Vehicle {
             }
             rates[RIGID + 2 * i + 1] = rates[RIGID + 2 * i + 1] - coupling;
         }
-        (rates, self.shown(&airframe, loads, x))
+        (rates, self.shown(&airframe, met.loads, x))
     }
 
     /// Whether fuel burns and none is left; a mass that is not a number counts as none.

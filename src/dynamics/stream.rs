@@ -5,8 +5,10 @@ use crate::scalar::Scalar;
 
 /// The vehicle as air in vertical motion meets it.
 pub struct Stream<S> {
-    /// The state with the speed through the air for V and the incidence to it for alpha.
-    pub state: State<S>,
+    /// Speed through the air, m/s.
+    pub speed: S,
+    /// Incidence to it, rad.
+    pub incidence: S,
     /// Sine and cosine of the angle of attack, of the body against the flight path.
     pub body: (S, S),
     /// Sine and cosine of the incidence, of the body against the stream.
@@ -22,17 +24,15 @@ impl<S: Scalar> Stream<S> {
         let (zero, one) = (S::constant(0.0), S::constant(1.0));
         let body = x[3].sin_cos();
         if gust.is_zero() {
-            return Self { state: *x, body, axis: body, turn: (zero, one) };
+            return Self { speed: x[0], incidence: x[3], body, axis: body, turn: (zero, one) };
         }
         let (sin_gamma, cos_gamma) = x[2].sin_cos();
         let (along, across) = (x[0] - gust * sin_gamma, gust * cos_gamma);
         let speed = (along * along + across * across).sqrt();
-        let mut state = *x;
-        state[0] = speed;
-        state[3] = x[3] + (across / along).atan();
+        let incidence = x[3] + (across / along).atan();
         let (sin, cos) = (across / speed, along / speed);
         let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
-        Self { state, body, axis, turn: (sin, cos) }
+        Self { speed, incidence, body, axis, turn: (sin, cos) }
     }
 }
 
@@ -40,7 +40,10 @@ impl Vehicle {
     /// The state as air rising at `gust` (m/s) meets it: speed through the air for V, incidence to
     /// it for alpha. Still air leaves it bit for bit as it is.
     pub fn as_met(x: &State, gust: f64) -> State {
-        Stream::new(x, gust).state
+        let Stream { speed, incidence, .. } = Stream::new(x, gust);
+        let mut met = *x;
+        (met[0], met[3]) = (speed, incidence);
+        met
     }
 
     /// Whether the curve fits hold at a state in air rising at `gust` (m/s), with fuel if it burns.

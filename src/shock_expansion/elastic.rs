@@ -2,7 +2,7 @@
 
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
-use crate::aero::{Aero, Elastic, ElasticTerm};
+use crate::aero::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
 use crate::beam::Beam;
 use crate::gas::GasError;
 use crate::modes::Modes;
@@ -36,17 +36,14 @@ impl ShockExpansion {
                 let at = |step: f64| self.loads(ahead, attitude, &|x| step * incidence(x));
                 let (up, down) = (at(STEP)?, at(-STEP)?);
                 let change = |f: &dyn Fn(&AirLoads) -> f64| (f(&up) - f(&down)) * per_step;
-                let pick = |term: &mut ElasticTerm, value: f64| {
-                    term.per[k][which] = value;
-                };
-                pick(&mut elastic.lift, change(&AirLoads::lift));
-                pick(&mut elastic.drag, change(&AirLoads::drag));
                 let moment = |run: &AirLoads| run.moment(aero.moment_centre, self.moment_height);
-                pick(&mut elastic.moment, change(&moment) / aero.chord);
+                let answers = &mut elastic.per[k][which];
+                answers[LIFT] = change(&AirLoads::lift);
+                answers[DRAG] = change(&AirLoads::drag);
+                answers[MOMENT] = change(&moment) / aero.chord;
                 for (i, mode) in modes.shape.iter().enumerate() {
                     let work = |run: &AirLoads| run.generalised(|x| mode.w_at(&beam.point(x)));
-                    let value = change(&work) / modes.modal_mass[i];
-                    elastic.force.elastic[k][which][i] = value;
+                    answers[FORCE + i] = change(&work) / modes.modal_mass[i];
                 }
             }
         }
@@ -62,15 +59,12 @@ pub const COMPARED: [&str; 6] =
 /// first `modes`; rows as in [`COMPARED`].
 pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
     let terms = |elastic: &Elastic| {
-        let of = |term: &ElasticTerm, which: usize| -> Vec<f64> {
-            term.per[..modes].iter().map(|per| per[which]).collect()
+        let of = |first: usize, rows: usize, which: usize| -> Vec<f64> {
+            let per = elastic.per[..modes].iter();
+            per.flat_map(|per| &per[which][first..first + rows]).copied().collect()
         };
-        let forces = |which: usize| -> Vec<f64> {
-            let by = elastic.force.elastic[..modes].iter();
-            by.flat_map(|by| &by[which][..modes]).copied().collect()
-        };
-        let (lift, moment) = (&elastic.lift, &elastic.moment);
-        [of(lift, 0), of(moment, 0), forces(0), of(lift, 1), of(moment, 1), forces(1)]
+        let three = |which| [of(LIFT, 1, which), of(MOMENT, 1, which), of(FORCE, modes, which)];
+        [three(0), three(1)].concat()
     };
     let (all, others) = (terms(elastic), terms(other));
     std::array::from_fn(|row| {

@@ -1,0 +1,89 @@
+//! The modes in the air: sums over all of them, term by term for all quantities at once.
+//!
+//! The same operations in the same order on every processor, so the same bits, but four quantities at a
+//! time where it can. They are functions of their own, as compilers make two operations one where
+//! results go to memory side by side.
+
+use super::{Airframe, Control, Met, RIGID, State};
+use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INFLOW, LIFT, MOMENT};
+use crate::modes::MODES;
+use crate::scalar::{Over, Scalar};
+use multiversion::multiversion;
+
+/// Adds a term to each of some quantities.
+#[inline(always)]
+fn add<C: Copy, S: Scalar + Over<C>, const N: usize>(sum: &mut [S; N], factor: S, per: &[C; N]) {
+    for i in 0..N {
+        sum[i] = sum[i] + factor * per[i];
+    }
+}
+
+/// What decides eq. (4), without the dynamic pressure.
+pub struct Coefficients<S> {
+    /// C_L, C_D, C_M and C_T.
+    pub body: [S; FITS],
+    /// Lift coefficient that the plume adds.
+    pub plume: S,
+    /// The elevator's lift over its slope at zero, rad.
+    pub elevator: S,
+    /// Incidence of the engine's inflow, rad.
+    pub inflow: S,
+    /// What the air answers to the shape: the rows of [`Elastic::per`].
+    pub elastic: [S; ANSWERS],
+}
+
+/// Coefficients at a state in air that meets the vehicle at an incidence (rad) and a speed (of which one
+/// over it is given, s/m).
+#[multiversion(targets("x86_64+avx"))]
+pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
+    aero: &Aero,
+    per: &Elastic<C>,
+    x: &State<S>,
+    u: &Control<S>,
+    [alpha, per_speed]: [S; 2],
+) -> Coefficients<S> {
+    let mut elastic = [S::constant(0.0); ANSWERS];
+    for (k, [per_eta, per_rate]) in per.per.iter().enumerate() {
+        add(&mut elastic, x[RIGID + 2 * k], per_eta);
+        add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
+    }
+    let (delta_e, phi, inflow) = (u[0], u[1], alpha + elastic[INFLOW]);
+    let incidence = [alpha, alpha, alpha, inflow];
+    let own = [elastic[LIFT], elastic[DRAG], elastic[MOMENT], S::constant(0.0)];
+    let fuel: [S; FITS] =
+        std::array::from_fn(|row| phi * aero.fits_phi.row(row).body(incidence[row]));
+    let body = std::array::from_fn(|row| {
+        aero.fits.row(row).at(incidence[row], delta_e) + fuel[row] + own[row]
+    });
+    let elevator = (delta_e * delta_e * aero.elevator_bend + 1.0) * delta_e;
+    Coefficients { body, plume: fuel[LIFT], elevator, inflow, elastic }
+}
+
+/// Second derivatives of the modal coordinates.
+#[multiversion(targets("x86_64+avx"))]
+pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
+    airframe: &Airframe<C>,
+    met: &Met<S>,
+    x: &State<S>,
+) -> [S; MODES] {
+    let (of, n) = (&met.coefficients, &airframe.elastic.force);
+    let (alpha, thrust) = (met.stream.incidence, met.loads.thrust);
+    // Over qbar S.
+    let mut air = n.alpha[0].map(S::of);
+    add(&mut air, alpha, &n.alpha[1]);
+    add(&mut air, alpha * alpha, &n.alpha[2]);
+    add(&mut air, of.elevator, &n.delta_e);
+    add(&mut air, of.plume, &n.plume);
+    add(&mut air, x[4] * met.per_speed, &n.pitch_rate);
+    let mut sum = airframe.floor.map(S::of);
+    add(&mut sum, thrust * met.stream.axis.0, &n.thrust_across);
+    add(&mut sum, thrust, &n.thrust_couple);
+    for i in 0..MODES {
+        let stiffness = x[RIGID + 2 * i] * airframe.stiffness[i][i];
+        sum[i] = sum[i] + met.force * (air[i] + of.elastic[FORCE + i]) - stiffness;
+    }
+    for (k, slowed) in airframe.damping.iter().enumerate() {
+        add(&mut sum, -x[RIGID + 2 * k + 1], slowed);
+    }
+    sum
+}
