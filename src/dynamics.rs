@@ -91,7 +91,7 @@ impl Vehicle {
     }
 
     /// What the air makes of a state, with the loads of eq. (4).
-    #[inline]
+    #[inline(always)]
     fn met<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
@@ -155,7 +155,7 @@ impl Vehicle {
     }
 
     /// Eq. (3) in known air, at one fuel level.
-    #[inline]
+    #[inline(always)]
     fn rates<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,

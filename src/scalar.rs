@@ -35,10 +35,6 @@ pub trait Scalar:
     fn chain(self, value: f64, slope: f64) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
-    /// Exponential function.
-    fn exp(self) -> Self;
-    /// Natural logarithm of a positive number.
-    fn ln(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// Arc tangent.
@@ -70,14 +66,6 @@ impl Scalar for f64 {
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
         libm::sincos(self)
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        libm::exp(self)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        libm::log(self)
     }
     #[inline]
     fn sqrt(self) -> Self {
@@ -205,13 +193,6 @@ impl<const N: usize> Scalar for Dual<N> {
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = libm::sincos(self.re);
         (self.chain(sin, cos), self.chain(cos, -sin))
-    }
-    fn exp(self) -> Self {
-        let value = libm::exp(self.re);
-        self.chain(value, value)
-    }
-    fn ln(self) -> Self {
-        self.chain(libm::log(self.re), 1.0 / self.re)
     }
     fn sqrt(self) -> Self {
         let value = libm::sqrt(self.re);

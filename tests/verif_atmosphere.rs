@@ -12,6 +12,9 @@ const PRINTED_DIGITS: f64 = 5e-5;
 /// The fit of Parker et al. is local: exact near its centre, 85,000 ft.
 const LOCAL_FIT: f64 = 2e-4;
 
+/// Rounding of a dozen operations, grown through seven layers.
+const ROUNDING: f64 = 1e-14;
+
 /// Geometric altitude (m), temperature (K), density (kg/m^3), speed of sound (m/s): NOAA-S/T
 /// 76-1562, table I.
 const TABLE: [[f64; 4]; 7] = [
@@ -41,6 +44,39 @@ fn verif_density_is_the_one_the_published_fits_assume() {
     let atmosphere = Atmosphere::new(&data().earth);
     let h = 85_000.0 * 0.3048;
     assert_close("density", atmosphere.air(h).density, 6.7429e-5 * 515.3788, LOCAL_FIT);
+}
+
+#[test]
+fn verif_density_is_the_closed_form_in_every_layer() {
+    // US Standard Atmosphere 1976, eqs. 33a and 33b, every 100 m and on both sides of every edge.
+    let data = data();
+    let (atmosphere, air) = (Atmosphere::new(&data.earth), &data.earth.air);
+    let radius = data.earth.earth.radius_m.value;
+    let gas_constant = air.gas_constant_j_per_kg_k.value;
+    let gravity_over_gas_constant = data.earth.earth.gravity_m_per_s2.value / gas_constant;
+
+    let edges: Vec<f64> = air.layer_base_m.value.iter().copied().chain([air.top_m.value]).collect();
+    let (mut base_temperature, mut base_pressure) =
+        (air.sea_level_temperature_k.value, air.sea_level_pressure_pa.value);
+    for (edge, lapse) in edges.windows(2).zip(&air.layer_lapse_k_per_m.value) {
+        let at = |geopotential: f64| {
+            let height = geopotential - edge[0];
+            let temperature = base_temperature + lapse * height;
+            let fall = match lapse {
+                0.0 => height / base_temperature,
+                _ => (lapse * height / base_temperature).ln_1p() / lapse,
+            };
+            (temperature, base_pressure * (-gravity_over_gas_constant * fall).exp())
+        };
+        let inside = (1..).map(|i| edge[0] + 100.0 * f64::from(i)).take_while(|h| *h < edge[1]);
+        for geopotential in [edge[0] + 1e-6, edge[1] - 1e-6].into_iter().chain(inside) {
+            let air = atmosphere.air(radius * geopotential / (radius - geopotential));
+            let (temperature, pressure) = at(geopotential);
+            assert_close("temperature", air.temperature, temperature, ROUNDING);
+            assert_close("density", air.density, pressure / (gas_constant * temperature), ROUNDING);
+        }
+        (base_temperature, base_pressure) = at(edge[1]);
+    }
 }
 
 #[test]
