@@ -29,6 +29,9 @@ impl System<2> for Oscillator {
     fn nominal(&self) -> &[f64; 2] {
         &[1.0, 1.0]
     }
+    fn steady(&self) -> bool {
+        true
+    }
 }
 
 fn oscillator(omega: f64, floor: f64) -> Oscillator {
@@ -127,6 +130,32 @@ fn verif_known_slopes_are_not_computed_again() {
     slope = Some(system.derivatives(0.02, &x));
     integrator.advance(&mut &DOP853, &system, &mut x, [0.02, 0.03], &mut slope);
     assert_eq!(system.calls.get(), 25 + 11);
+}
+
+#[test]
+fn verif_what_rests_arrives_at_once_however_long_the_interval() {
+    let mut integrator = Integrator::new(1e-8, 1e-3);
+    let (mut rest, ends) = ([0.0; 2], [0.0, f64::MAX]);
+    let system = oscillator(3.0, -1.0);
+    let arrival = integrator.advance(&mut &DOP853, &system, &mut rest, ends, &mut None);
+    assert_eq!((arrival, rest, system.calls.get()), (Arrival::Complete, [0.0; 2], 1));
+
+    /// x' = t: at rest in the beginning only.
+    struct Push;
+    impl System<1> for Push {
+        fn derivatives(&self, t: f64, _: &[f64; 1]) -> [f64; 1] {
+            [t]
+        }
+        fn holds(&self, _: f64, _: &[f64; 1]) -> bool {
+            true
+        }
+        fn nominal(&self) -> &[f64; 1] {
+            &[1.0]
+        }
+    }
+    let mut x = [0.0];
+    integrator.advance(&mut &DOP853, &Push, &mut x, [0.0, 2.0], &mut None);
+    assert!((x[0] - 2.0).abs() < 1e-7, "{x:?}");
 }
 
 #[test]

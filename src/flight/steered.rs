@@ -44,4 +44,7 @@ impl System<STATES> for Steered<'_> {
     fn nominal(&self) -> &State {
         &NOMINAL
     }
+    fn steady(&self) -> bool {
+        self.held.is_some()
+    }
 }
