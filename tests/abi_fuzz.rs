@@ -17,12 +17,16 @@ use std::collections::BTreeSet;
 use std::ffi::CStr;
 use std::fmt::Debug;
 use std::ptr::{null, null_mut};
-use std::thread;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::thread::{self, ScopedJoinHandle};
+use std::time::{Duration, Instant};
 
 const SEQUENCES: u64 = 2_000;
 const CALLS_PER_SEQUENCE: u64 = 40;
 /// One argument in so many is unsound, of each kind of fault.
 const RARELY: u64 = 24;
+/// No sequence takes so long, not even under valgrind.
+const HANGING: Duration = Duration::from_secs(120);
 
 #[rustfmt::skip]
 const NUMBERS: [f64; 16] = [
@@ -577,6 +581,22 @@ fn play_sequence(api: &Api, seed: u64, tally: &mut Tally) {
     }
 }
 
+/// Ends the process if a sequence does not end: a call that hangs would take the test with it.
+fn watch(playing: &[AtomicU64], finished: impl Fn() -> bool) {
+    let mut last = Vec::new();
+    let mut since = Instant::now();
+    while !finished() {
+        thread::sleep(Duration::from_millis(50));
+        let now: Vec<_> = playing.iter().map(|seed| seed.load(Relaxed)).collect();
+        if now != last {
+            (last, since) = (now, Instant::now());
+        } else if since.elapsed() > HANGING {
+            eprintln!("no sequence has ended for {HANGING:?}; playing are the seeds {now:?}");
+            std::process::exit(1);
+        }
+    }
+}
+
 #[test]
 fn every_function_is_played() {
     let played: BTreeSet<_> = PLAYS.iter().map(|(name, _)| *name).collect();
@@ -590,19 +610,24 @@ fn random_calls_never_crash_and_follow_the_table_of_legal_calls() {
     let wanted = std::env::var("AHV_FUZZ").ok().map(|text| text.parse().expect("AHV_FUZZ"));
     let sequences = wanted.unwrap_or(SEQUENCES);
     let threads = thread::available_parallelism().map_or(1, usize::from) as u64;
+    let playing: Vec<_> = (0..threads).map(AtomicU64::new).collect();
     let tallies: Vec<Tally> = thread::scope(|scope| {
-        let running: Vec<_> = (0..threads)
-            .map(|first| {
+        let running: Vec<_> = playing
+            .iter()
+            .zip(0..)
+            .map(|(playing, first)| {
                 let api = &api;
                 scope.spawn(move || {
                     let mut tally = Tally::default();
-                    (first..sequences)
-                        .step_by(threads as usize)
-                        .for_each(|seed| play_sequence(api, seed, &mut tally));
+                    for seed in (first..sequences).step_by(threads as usize) {
+                        playing.store(seed, Relaxed);
+                        play_sequence(api, seed, &mut tally);
+                    }
                     tally
                 })
             })
             .collect();
+        watch(&playing, || running.iter().all(ScopedJoinHandle::is_finished));
         running.into_iter().map(|thread| thread.join().unwrap()).collect()
     });
     let sum = |part: fn(&Tally) -> u64| tallies.iter().map(part).sum::<u64>();
