@@ -21,8 +21,8 @@ use multiversion::multiversion;
 
 /// Heave and pitch.
 const RIGID: usize = 2;
-/// Vectors for each mode before the first look at the small eigenproblem: fewer never suffice.
-const FIRST_LOOK: usize = 3;
+/// Vectors for each mode before the first look at the small eigenproblem: fewer seldom suffice.
+const FIRST_LOOK: usize = 4;
 /// Steps between later looks.
 const STRIDE: usize = 3;
 /// Vectors at which the search is given up; 24 are usual.
