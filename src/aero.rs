@@ -118,9 +118,9 @@ pub const ANSWERS: usize = FORCE + MODES;
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Elastic<C = f64> {
-    /// By each mode, flexible modes first, then slosh modes: what answers to eta, 1/m, and to
-    /// eta-dot/V, 1/m; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre,
-    /// the incidence of the engine's inflow, and N_i over qbar S.
+    /// By each mode, flexible modes first, then slosh modes: what answers to eta, per m, and to
+    /// eta-dot/V; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre, the
+    /// incidence of the engine's inflow, and N_i over qbar S and the modal mass, 1/kg.
     pub per: [[[C; ANSWERS]; 2]; MODES],
     /// The rest of N_i.
     pub force: ModalForces<C>,

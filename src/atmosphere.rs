@@ -3,7 +3,8 @@
 use crate::params::EarthData;
 use crate::scalar::Scalar;
 
-/// Terms of a layer's density, in pairs: enough for the last digit in the thickest of the standard.
+/// Terms of a layer's density, in pairs: enough for the last digit in every layer of the standard; that
+/// from 32 to 47 km needs the most.
 const PAIRS: usize = 12;
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -47,7 +48,7 @@ pub struct Air<S> {
 
 impl Atmosphere {
     /// The layers one upon the other from sea level (US Standard Atmosphere 1976, eqs. 23, 33a and
-    /// 33b, see [`Layer::new`]).
+    /// 33b, each as its Taylor series).
     pub fn new(data: &EarthData) -> Self {
         let (air, gravity) = (&data.air, data.earth.gravity_m_per_s2.value);
         let gas_constant = air.gas_constant_j_per_kg_k.value;
@@ -126,8 +127,8 @@ impl Atmosphere {
 impl Layer {
     /// A layer between two edges, m, with its temperature, K, and density, kg/m^3, at the lower one.
     ///
-    /// Of eqs. 33a and 33b stands here what both come from, the weight of the air (eq. 19) with the
-    /// law of the gas: `T rho' = -(g0/R + L) rho` with `T = T_m + L z`. Its Taylor series costs half
+    /// Of eqs. 33a and 33b stands here what both come from, the weight of the air with the law of the
+    /// gas: `T rho' = -(g0/R + L) rho` with `T = T_m + L z`. Its Taylor series costs half
     /// of what an exponential function and a logarithm do, and knows no difference between layers of
     /// constant and of changing temperature. Power by power: `T_m (n+1) c_(n+1) = -(g0/R + L + n L) c_n`.
     fn new(

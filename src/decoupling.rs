@@ -34,6 +34,7 @@ impl<const N: usize, const SLOW: usize, const FAST: usize> Decoupling<N, SLOW, F
     /// coordinates decouple it well, each pair of states counts as an oscillator by itself.
     pub fn new(jacobian: &DMatrix<f64>, nominal: &[f64; N]) -> Self {
         const { assert!(N.is_multiple_of(2) && FAST.is_multiple_of(2), "states come in pairs") }
+        const { assert!(SLOW + FAST <= N, "fast states are states") }
         let all = jacobian.nrows();
         let scaled = DMatrix::from_fn(all, all, |i, j| jacobian[(i, j)] * nominal[j] / nominal[i]);
         Self::decoupled(&scaled, nominal).unwrap_or_else(|| {
@@ -62,11 +63,16 @@ impl<const N: usize, const SLOW: usize, const FAST: usize> Decoupling<N, SLOW, F
         well.then(|| Self {
             out: columns(|i, j| entry(&out, i, j) * nominal[i]),
             into: columns(|i, j| {
-                let i = (i + SLOW) % N;
+                let i = Self::state(i);
                 entry(&into, i, j) * unit(i) / nominal[SLOW + j]
             }),
             blocks: blocks(&own),
         })
+    }
+
+    /// The state in whose place a coordinate is: the fast ones come first.
+    const fn state(coordinate: usize) -> usize {
+        (coordinate + SLOW) % N
     }
 
     /// A change of the states, from one of the coordinates.
@@ -74,16 +80,16 @@ impl<const N: usize, const SLOW: usize, const FAST: usize> Decoupling<N, SLOW, F
     pub fn to_states(&self, coordinates: &[f64; N]) -> [f64; N] {
         let mut slow = [0.0; N];
         for i in FAST..N {
-            slow[(i + SLOW) % N] = coordinates[i];
+            slow[Self::state(i)] = coordinates[i];
         }
-        sum(slow, &self.out, coordinates)
+        plus_columns(slow, &self.out, coordinates)
     }
 
     /// A change of the coordinates, from one of the states.
     #[inline(always)]
     pub fn to_coordinates(&self, states: &[f64; N]) -> [f64; N] {
-        let slow = std::array::from_fn(|i| if i < FAST { 0.0 } else { states[(i + SLOW) % N] });
-        sum(slow, &self.into, &states[SLOW..])
+        let slow = std::array::from_fn(|i| if i < FAST { 0.0 } else { states[Self::state(i)] });
+        plus_columns(slow, &self.into, &states[SLOW..])
     }
 }
 
@@ -105,7 +111,7 @@ fn entry(matrix: &DMatrix<f64>, i: usize, j: usize) -> f64 {
 
 /// Adds a multiple of each column.
 #[inline(always)]
-fn sum<const N: usize, const FAST: usize>(
+fn plus_columns<const N: usize, const FAST: usize>(
     mut sum: [f64; N],
     columns: &[[f64; N]; FAST],
     multiples: &[f64],

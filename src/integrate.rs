@@ -8,7 +8,7 @@ pub trait System<const N: usize> {
     fn holds(&self, t: f64, x: &[f64; N]) -> bool;
     /// Typical size of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
-    /// Whether f does not change with time: what rests then rests for ever.
+    /// Whether neither f nor `holds` changes with time: what a step leaves as it is then stays so.
     fn steady(&self) -> bool {
         false
     }
@@ -139,10 +139,6 @@ impl Integrator {
         let mut invalid = f64::INFINITY;
         let mut slope = first.unwrap_or_else(|| system.derivatives(t, x));
         while t < end {
-            if system.steady() && slope == [0.0; N] && system.holds(t, x) {
-                *first = Some(slope);
-                return Arrival::Complete;
-            }
             let target = end.min(invalid);
             let remaining = target - t;
             let pieces = libm::ceil(remaining / self.proposal.min(method.longest())).max(1.0);
@@ -183,7 +179,9 @@ impl Integrator {
             }
             // A step cut by the interval's end says nothing against the longer proposal.
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
-            t = if last && invalid > end { end } else { t + h };
+            // The steps to come would be this one again, as many as there are.
+            let rests = system.steady() && trial.next == *x && self.proposal >= method.longest();
+            t = if rests || last && invalid > end { end } else { t + h };
             *x = trial.next;
             *first = trial.slope;
             if t < end {

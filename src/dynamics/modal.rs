@@ -1,8 +1,8 @@
 //! The modes in the air: sums over all of them, term by term for all quantities at once.
 //!
 //! The same operations in the same order on every processor, so the same bits, but four quantities at a
-//! time where it can. They are functions of their own, as compilers make two operations one where
-//! results go to memory side by side.
+//! time where it can. They are functions of their own: inlined among others, whose results go to
+//! memory in pairs, a compiler packs them in pairs as well.
 
 use super::{Airframe, Control, Met, RIGID, State};
 use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INFLOW, LIFT, MOMENT};
@@ -37,13 +37,13 @@ pub struct Coefficients<S> {
 #[multiversion(targets("x86_64+avx"))]
 pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
     aero: &Aero,
-    per: &Elastic<C>,
+    terms: &Elastic<C>,
     x: &State<S>,
     u: &Control<S>,
     [alpha, per_speed]: [S; 2],
 ) -> Coefficients<S> {
     let mut elastic = [S::constant(0.0); ANSWERS];
-    for (k, [per_eta, per_rate]) in per.per.iter().enumerate() {
+    for (k, [per_eta, per_rate]) in terms.per.iter().enumerate() {
         add(&mut elastic, x[RIGID + 2 * k], per_eta);
         add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
     }
