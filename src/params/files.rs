@@ -29,9 +29,9 @@ pub struct Quantity<T = f64> {
     /// The number, in `unit`.
     pub value: T,
     /// Unit, as text; agrees with the suffix of the key.
-    pub unit: String,
+    pub unit: Box<str>,
     /// Where the number comes from.
-    pub source: String,
+    pub source: Box<str>,
     /// How far it can be trusted.
     pub status: Status,
 }
