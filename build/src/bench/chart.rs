@@ -1,6 +1,6 @@
 //! The picture: error against the least time of the repetitions, both logarithmic.
 
-use super::precision::Point;
+use super::precision::{OURS, Point};
 use crate::figure::{self, Area, Drawing, Drawn, FONT, FRAME, GRID};
 use anyhow::Result;
 use plotters::prelude::*;
@@ -63,6 +63,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Draw
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(scale))
         .axis_style(FRAME.stroke_width(scale))
+        .set_all_tick_mark_size(5 * scale)
         .label_style(text.clone())
         .axis_desc_style(text.clone())
         .x_label_formatter(&power)
@@ -76,10 +77,11 @@ fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Draw
         let colour = COLOURS[number % COLOURS.len()];
         let own = points.iter().filter(|point| point.method == *method);
         let own: Vec<_> = own.map(|point| (point.seconds.least, point.error)).collect();
-        chart.draw_series(LineSeries::new(own.clone(), colour.stroke_width(2 * scale)))?;
+        let line = colour.stroke_width(if method.starts_with(OURS) { 4 } else { 2 } * scale);
+        chart.draw_series(LineSeries::new(own.clone(), line))?;
         let y = ((40 + 24 * number as u32) * scale) as i32;
         let (start, end) = (2 * scale as i32, 26 * scale as i32);
-        legend.draw(&PathElement::new([(start, y), (end, y)], colour.stroke_width(2 * scale)))?;
+        legend.draw(&PathElement::new([(start, y), (end, y)], line))?;
         // Where the colours begin anew, the dots are hollow.
         let fill = if number < COLOURS.len() { colour } else { WHITE };
         for (radius, colour) in [(4, colour), (2, fill)] {

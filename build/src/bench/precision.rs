@@ -13,6 +13,8 @@ use ahv::flight::{DEFAULT_TOLERANCE, Flight, method};
 use anyhow::Result;
 use serde::Serialize;
 
+/// How the names of our method begin.
+pub const OURS: &str = "ours";
 /// Of the picture.
 pub const TOLERANCES: [&str; 5] = ["1e-4", "1e-6", "1e-8", "1e-10", "1e-12"];
 /// Communication steps of the flight: 10 ms, and only where the input jumps.
@@ -56,7 +58,7 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
         let seconds = seconds(effort, &mut again);
         flight.rewind(&initial)?;
         points.push(Point {
-            method: format!("ours, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
+            method: format!("{OURS}, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
             tolerance: tolerance.to_string(),
             seconds,
             calls: problem.fly(&mut method(&vehicle, &trim), tolerance.parse()?).1,
