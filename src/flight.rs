@@ -13,7 +13,7 @@ pub use snapshot::Snapshot;
 use crate::dop853::DOP853;
 use crate::dynamics::{Control, FUEL, Outputs, STATES, State, Vehicle};
 use crate::error::Error;
-use crate::integrate::{Arrival, Integrator};
+use crate::integrate::{Arrival, Integrator, System};
 use crate::parameters::Parameters;
 use crate::trim::Trim;
 use crate::vehicle::Data;
@@ -230,7 +230,7 @@ impl Flight {
         let interval = [0.0, length];
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
-        let arrival = if steered.held.is_some() {
+        let arrival = if steered.steady() {
             integrator.advance(&mut ready.method, &steered, state, interval, slope)
         } else {
             integrator.advance(&mut &DOP853, &steered, state, interval, slope)
