@@ -100,8 +100,6 @@ pub struct ModalForces<C = f64> {
     pub delta_e: PerMode<C>,
     /// Of the lift that the plume adds, C_L,phi phi.
     pub plume: PerMode<C>,
-    /// Per q/V, m.
-    pub pitch_rate: PerMode<C>,
     /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
     pub thrust_across: PerMode<C>,
     /// Of the thrust's couple, T z_T, which acts at the nacelle.
@@ -112,16 +110,21 @@ pub struct ModalForces<C = f64> {
 pub const INFLOW: usize = THRUST;
 /// Row of [`Elastic::per`] of the first mode's force; those of the others follow.
 pub const FORCE: usize = FITS;
+/// Row of [`Elastic::per`]: incidence of the whole body, rad.
+pub const INCIDENCE: usize = FORCE + MODES;
 /// Rows of [`Elastic::per`].
-pub const ANSWERS: usize = FORCE + MODES;
+pub const ANSWERS: usize = INCIDENCE + 1;
 
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Elastic<C = f64> {
     /// By each mode, flexible modes first, then slosh modes: what answers to eta, per m, and to
     /// eta-dot/V; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre, the
-    /// incidence of the engine's inflow, and N_i over qbar S and the modal mass, 1/kg.
+    /// incidence of the engine's inflow against that of the body, N_i over qbar S and the modal mass,
+    /// 1/kg, and the incidence of the body.
     pub per: [[[C; ANSWERS]; 2]; MODES],
+    /// The same rows per q/V, m.
+    pub pitch_rate: [C; ANSWERS],
     /// The rest of N_i.
     pub force: ModalForces<C>,
 }
@@ -139,7 +142,7 @@ pub struct Aero {
     pub thrust_arm: f64,
     /// Incidence of the elastic derivatives, rad.
     pub elastic_alpha: f64,
-    /// Factor on all elastic terms.
+    /// Factor on what bending does.
     pub elastic_scale: f64,
     /// Elevator deflection of the elastic derivatives, rad.
     pub elastic_delta_e: f64,
@@ -182,6 +185,7 @@ impl Aero {
                 alpha: data.envelope.alpha_rad.value,
                 mach: data.envelope.mach.value,
                 altitude: data.envelope.altitude_m.value,
+                choking_margin: data.envelope.choking_margin.as_ref().map(|q| q.value),
             },
         }
     }

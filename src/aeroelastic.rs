@@ -1,24 +1,29 @@
 //! Where the elastic terms of eq. (4) come from: local incidence, integrated over the body.
 //!
-//! No set of flexible coefficients is published, so they follow from the published rigid ones and
+//! No set of flexible coefficients was found, so they follow from the published rigid ones and
 //! the mode shapes. The body is cut at the end of the fore-body into two strips of uniform load;
 //! the elevator is a third surface, where the published lift and moment per deflection put it.
 //! The loads of the two strips are those that give the published lift *and* moment at every
 //! incidence, so the rigid body stays exactly as published.
 //!
-//! A mode changes the local incidence by eps(x) = -phi'(x) eta - phi(x) eta-dot/V (x aft, w up),
-//! a pitch rate by q (x - x_cg)/V. Strip and elevator answer with their lift slope at one
-//! reference incidence. The pitch rate enters the modal forces only: the published rigid part has
-//! no q-derivatives, and eq. (4) has none.
+//! A mode moves the body by its mean translation and rotation ([`RigidMotion`]), as sloshing liquid
+//! does, and bends it by the rest. The rotation and the rate of the translation change the incidence of
+//! the whole body, in the published fits. Bending changes the local incidence by
+//! eps(x) = -w'(x) - w-dot(x)/V (x aft, w up), and the pitch rate q of the body by q (x - x_cg)/V. Strip
+//! and elevator answer with their lift slope at one reference incidence.
+//!
+//! Eq. (4) has no terms in the pitch rate. The strips give them, in lift, drag, moment, thrust and modal
+//! forces alike; `pitch_rate` says which part of them counts: 0 as printed, 1 by strip theory.
 //!
 //! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
 //! the air, and a beam that feels one without the other seems to spin.
 
-use crate::aero::{Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
+use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode};
 use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
 use crate::params::Geometry;
+use crate::rigid_body::RigidMotion;
 
 /// A part of the body that answers to local incidence.
 struct Surface {
@@ -34,6 +39,7 @@ struct Surface {
 #[derive(Debug, Clone, Copy, Default)]
 struct Means {
     x: f64,
+    xx: f64,
     phi: [f64; MODES],
     slope: [f64; MODES],
     x_phi: [f64; MODES],
@@ -54,6 +60,7 @@ impl Means {
                 slope[i] = shape.slope_at(&point);
             }
             mean.x += weight * x;
+            mean.xx += weight * x * x;
             for i in 0..shapes.len() {
                 mean.phi[i] += weight * phi[i];
                 mean.slope[i] += weight * slope[i];
@@ -70,12 +77,53 @@ impl Means {
 
     /// The same with x from `centre`.
     fn about(mut self, centre: f64) -> Self {
+        self.xx -= centre * (2.0 * self.x - centre);
         self.x -= centre;
         for i in 0..MODES {
             self.x_phi[i] -= centre * self.phi[i];
             self.x_slope[i] -= centre * self.slope[i];
         }
         self
+    }
+}
+
+/// A field of incidence over a surface: its averages by itself, times x and times each shape.
+#[derive(Debug, Clone, Copy, Default)]
+struct Field {
+    one: f64,
+    x: f64,
+    phi: PerMode,
+}
+
+impl Field {
+    fn plus(self, factor: f64, other: Self) -> Self {
+        Self {
+            one: self.one + factor * other.one,
+            x: self.x + factor * other.x,
+            phi: std::array::from_fn(|i| self.phi[i] + factor * other.phi[i]),
+        }
+    }
+}
+
+impl Means {
+    /// The field that is 1 everywhere.
+    fn unit(&self) -> Field {
+        Field { one: 1.0, x: self.x, phi: self.phi }
+    }
+
+    /// x.
+    fn station(&self) -> Field {
+        Field { one: self.x, x: self.xx, phi: self.x_phi }
+    }
+
+    /// phi_k.
+    fn deflection(&self, k: usize) -> Field {
+        Field { one: self.phi[k], x: self.x_phi[k], phi: self.phi_phi.map(|row| row[k]) }
+    }
+
+    /// phi_k'.
+    fn slope(&self, k: usize) -> Field {
+        Field { one: self.slope[k], x: self.x_slope[k], phi: self.phi_slope.map(|row| row[k]) }
     }
 }
 
@@ -86,6 +134,10 @@ pub struct Strips {
     aft: Means,
     /// Middle of the nacelle.
     engine: Point,
+    /// Mean translation and rotation of the body in each mode.
+    moved: [[f64; 2]; MODES],
+    /// Where the translation is, m from the nose.
+    body_centre: f64,
 }
 
 impl Strips {
@@ -93,10 +145,17 @@ impl Strips {
     pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
         let cut = geometry.fore_body_m.value;
         let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
+        let motion = RigidMotion::of(beam);
+        let mut moved = [[0.0; 2]; MODES];
+        for (part, shape) in moved.iter_mut().zip(&modes.shape) {
+            *part = motion.part(&shape.w, &shape.slope);
+        }
         Self {
             fore: strip(0.0, cut),
             aft: strip(cut, beam.length_m()),
             engine: beam.point(cut + 0.5 * geometry.nacelle_m.value),
+            moved,
+            body_centre: motion.centre_m,
         }
     }
 }
@@ -145,42 +204,61 @@ fn plume_station(aero: &Aero) -> Option<f64> {
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
-/// `mass_centre` is its station from the nose (m).
+/// `mass_centre` is its station from the nose (m), `pitch_rate` the part of the terms in the pitch rate
+/// that counts.
 pub fn derive(
     aero: &Aero,
     beam: &Beam,
     modes: &Modes,
     strips: &Strips,
     mass_centre: f64,
+    pitch_rate: f64,
 ) -> Elastic {
     let centre = beam.point(mass_centre);
     let plume = plume_station(aero).map(|x| beam.point(x.clamp(0.0, beam.length_m())));
     let surfaces = surfaces(aero, beam, &modes.shape, strips);
-    // Sum over the surfaces of lift slope times an average.
-    let scale = aero.elastic_scale;
-    let answer = |f: &dyn Fn(&Means) -> f64| {
-        surfaces.iter().map(|s| s.slope * f(&s.mean)).sum::<f64>() * scale
-    };
     let [drag_slope, lift_slope] =
         [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
-    let drag_per_lift = drag_slope / lift_slope;
-    let shift = mass_centre - aero.moment_centre;
+    let per_mass: PerMode =
+        std::array::from_fn(|i| if i < modes.count { 1.0 / modes.modal_mass[i] } else { 0.0 });
+    // What the air answers to a field of incidence.
+    let answer = |field: &dyn Fn(&Means) -> Field| {
+        let start = Field::default();
+        let sum = surfaces.iter().fold(start, |sum, s| sum.plus(s.slope, field(&s.mean)));
+        let mut rows = [0.0; ANSWERS];
+        rows[LIFT] = sum.one;
+        // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
+        rows[DRAG] = drag_slope / lift_slope * sum.one;
+        rows[MOMENT] = -sum.x / aero.chord;
+        // The engine swallows what the fore-body has turned.
+        rows[INFLOW] = field(&surfaces[0].mean).one;
+        for i in 0..MODES {
+            rows[FORCE + i] = sum.phi[i] * per_mass[i];
+        }
+        rows
+    };
 
     let mut elastic = Elastic::default();
+    let shift = mass_centre - aero.moment_centre;
+    elastic.pitch_rate =
+        answer(&|m| m.station().plus(-shift, m.unit())).map(|row| pitch_rate * row);
+    for k in 0..modes.shape.len() {
+        let [translation, rotation] = strips.moved[k];
+        // Of the rigid part of the mode, by the distance from the moment centre.
+        let at_centre = translation + rotation * (aero.moment_centre - strips.body_centre);
+        let bent = answer(&|m| m.slope(k).plus(-rotation, m.unit()));
+        let bending =
+            answer(&|m| m.deflection(k).plus(-at_centre, m.unit()).plus(-rotation, m.station()));
+        let [per_eta, per_rate] = &mut elastic.per[k];
+        *per_eta = bent.map(|row| -aero.elastic_scale * row);
+        per_eta[INCIDENCE] = -rotation;
+        *per_rate = std::array::from_fn(|row| {
+            -aero.elastic_scale * bending[row] - rotation * elastic.pitch_rate[row]
+        });
+        per_rate[INCIDENCE] = -(at_centre + rotation * shift);
+    }
     for i in 0..modes.shape.len() {
-        let [per_eta, per_rate] = &mut elastic.per[i];
-        per_eta[LIFT] = -answer(&|m| m.slope[i]);
-        per_rate[LIFT] = -answer(&|m| m.phi[i]);
-        per_eta[MOMENT] = answer(&|m| m.x_slope[i]) / aero.chord;
-        per_rate[MOMENT] = answer(&|m| m.x_phi[i]) / aero.chord;
-        // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
-        per_eta[DRAG] = drag_per_lift * per_eta[LIFT];
-        per_rate[DRAG] = drag_per_lift * per_rate[LIFT];
-        // The engine swallows what the fore-body has turned.
-        per_eta[INFLOW] = -surfaces[0].mean.slope[i] * scale;
-        per_rate[INFLOW] = -surfaces[0].mean.phi[i] * scale;
-
-        let per_mass = 1.0 / modes.modal_mass[i];
+        let per_mass = per_mass[i];
         let load = |power: usize| {
             surfaces.iter().map(|s| s.load[power] * s.mean.phi[i]).sum::<f64>() * per_mass
         };
@@ -194,12 +272,6 @@ pub fn derive(
         force.plume[i] = plume.map_or(0.0, |place| shape.w_at(&place) * per_mass);
         // Nose up and w up: the couple works on a falling slope.
         force.thrust_couple[i] = -aero.thrust_arm * shape.slope_at(&strips.engine) * per_mass;
-        force.pitch_rate[i] = answer(&|m| m.x_phi[i] - shift * m.phi[i]) * per_mass;
-        for k in 0..modes.shape.len() {
-            let [per_eta, per_rate] = &mut elastic.per[k];
-            per_eta[FORCE + i] = -answer(&|m| m.phi_slope[i][k]) * per_mass;
-            per_rate[FORCE + i] = -answer(&|m| m.phi_phi[i][k]) * per_mass;
-        }
     }
     elastic
 }

@@ -12,6 +12,7 @@
 //! exact inverse of K on self-equilibrated loads, at O(n) and to almost the last bit.
 
 use crate::params::VehicleData;
+use crate::rigid_body::Moments;
 use crate::slosh::{SloshingTank, full_mass_kg_per_m, propellant_kg_per_m};
 
 /// Sloshing mass on a spring and a damper below a node; it moves vertically.
@@ -47,6 +48,8 @@ pub struct Beam {
     pub stiffness: Vec<f64>,
     /// Mass per length of each element, kg/m^2.
     pub density: Vec<f64>,
+    /// Of the rigid body, beyond those of the density.
+    pub moments: Moments,
 }
 
 impl Beam {
@@ -76,7 +79,8 @@ impl Beam {
         let stiffness = (0..count)
             .map(|e| interpolate(stations, values, (e as f64 + 0.5) * element_m))
             .collect();
-        let mut beam = Self { element_m, stiffness, density: vec![0.0; count] };
+        let density = vec![0.0; count];
+        let mut beam = Self { element_m, stiffness, density, moments: Moments::default() };
         let (mass, joint) = (&data.mass, data.mass.beam_joint_m.value);
         beam.spread(scale * mass.fore_beam_kg_per_m2.value, f64::NEG_INFINITY, joint);
         beam.spread(scale * mass.aft_beam_kg_per_m2.value, joint, f64::INFINITY);
@@ -128,10 +132,24 @@ impl Beam {
         }
     }
 
-    /// Mass, mass centre and inertia of beam and sloshing masses, these as points at their nodes.
-    ///
-    /// The consistent mass matrix is exact for rigid motion, and these are its rigid-body entries.
+    /// Mass, mass centre and inertia of beam and sloshing masses, these as points at their nodes: the
+    /// rigid-body entries of the mass matrix.
     pub fn mass_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
+        let own = self.density_properties(oscillators);
+        let (shift, off) =
+            (self.moments.first / own.mass, own.centre_m - self.moments.motion.centre_m);
+        let moved = own.mass * ((off + shift) * (off + shift) - off * off);
+        MassProperties {
+            mass: own.mass,
+            centre_m: own.centre_m + shift,
+            inertia: own.inertia + self.moments.second - moved,
+        }
+    }
+
+    /// [`Beam::mass_properties`] by density and sloshing masses alone.
+    ///
+    /// The consistent mass matrix is exact for rigid motion.
+    pub fn density_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
         let own = self.element_m * self.element_m / 12.0;
         let parts = || {
             let elements = self.density.iter().enumerate().map(move |(e, density)| {
@@ -146,7 +164,7 @@ impl Beam {
         MassProperties { mass, centre_m, inertia }
     }
 
-    /// Consistent mass matrix of an element, for `[w, theta]` at its two ends.
+    /// Consistent mass matrix of an element's density, for `[w, theta]` at its two ends.
     pub fn element_mass(&self, element: usize) -> [[f64; 4]; 4] {
         let l = self.element_m;
         let rows = [
@@ -171,10 +189,19 @@ impl Beam {
         rows.map(|row| row.map(|entry| entry * self.stiffness[element] / (l * l * l)))
     }
 
-    /// `product = M displacement`; M is the consistent mass matrix of the beam alone.
+    /// `product = M displacement`; M is the mass matrix of the beam alone, with its
+    /// [`Beam::moments`].
     ///
     /// Both slices hold [`Beam::unknowns`] entries.
     pub fn mass_times(&self, displacement: &[f64], product: &mut [f64]) {
+        self.density_times(displacement, product);
+        if !self.moments.motion.rotation.is_empty() {
+            self.moments.add_product(displacement, product);
+        }
+    }
+
+    /// `product = M_b displacement`; M_b is the consistent mass matrix of the density.
+    pub fn density_times(&self, displacement: &[f64], product: &mut [f64]) {
         let l = self.element_m;
         let [mut force, mut moment] = [0.0, 0.0];
         let (nodes, _) = displacement.as_chunks::<2>();

@@ -10,14 +10,14 @@
 //! spaced in the root of the filling. Between them lie cubics with matching slopes; these come from
 //! five levels each, so the error falls with the fourth power of the spacing.
 
+use crate::assembly::Chosen;
 use crate::dynamics::{Airframe, COEFFICIENTS};
 use crate::error::Error;
 #[cfg(doc)]
 use crate::modes::Modes;
-use crate::params::AeroData;
 use crate::scalar::Scalar;
 use crate::slosh::fuel_kg_per_m;
-use crate::vehicle::{Body, Build, Data};
+use crate::vehicle::Body;
 
 /// Levels at which the modes are solved.
 const LEVELS: usize = 33;
@@ -56,37 +56,39 @@ fn slope(level: usize, at: impl Fn(usize) -> f64) -> f64 {
 }
 
 impl Burn {
-    /// Solves the vehicle of a build, whose body at the start is known, at all levels below.
+    /// Solves a vehicle, whose body at the start is known, at all levels below.
     ///
     /// # Errors
     /// Those of [`Body::new`]; [`Error::Value`] if the modes cannot be followed.
-    pub fn new(data: &Data, build: &Build, body: &Body, set: &AeroData) -> Result<Self, Error> {
-        let residual = data.vehicle.mass.residual_fraction.value;
+    pub fn new(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
+        let residual = chosen.vehicle.mass.residual_fraction.value;
         let drained = 1.0 - residual;
-        let start = (residual + drained * build.fuel_fraction).sqrt();
+        let start = (residual + drained * chosen.build.fuel_fraction).sqrt();
         let spacing = (start - (BELOW_EMPTY * residual).sqrt()) / (LEVELS - 1) as f64;
-        let filling = [residual, drained / fuel_kg_per_m(&data.vehicle, 1.0)];
+        let filling = [residual, drained / fuel_kg_per_m(&chosen.vehicle, 1.0)];
 
-        let mut bodies = vec![body.clone()];
-        for level in 1..LEVELS {
+        let level = |level: usize| {
             let root = start - spacing * level as f64;
-            let fuel_fraction = (root * root - residual) / drained;
-            let own = Body::new(data, &Build { fuel_fraction, ..*build })?;
-            bodies.push(own.turned(data, body)?);
+            chosen.at((root * root - residual) / drained)
+        };
+        let levels: Vec<Chosen> =
+            std::iter::once(chosen.clone()).chain((1..LEVELS).map(level)).collect();
+        let mut bodies = vec![body.clone()];
+        for chosen in &levels[1..] {
+            bodies.push(Body::new(chosen)?.turned(chosen, body)?);
         }
         let shapes: Vec<Vec<Vec<f64>>> = bodies.iter().map(Body::displacements).collect();
-        let rows: Vec<[f64; COEFFICIENTS]> = (0..LEVELS)
-            .map(|level| {
-                let root = start - spacing * level as f64;
-                let levels_per_fuel = -filling[1] / (2.0 * root * spacing);
-                let mut airframe = bodies[level].airframe(data, build, set);
-                airframe.turning = bodies[level].products(&turned(level, &shapes));
-                for entry in airframe.turning.as_flattened_mut() {
-                    *entry *= levels_per_fuel;
-                }
-                airframe.to_row()
-            })
-            .collect();
+        let row = |level: usize| {
+            let root = start - spacing * level as f64;
+            let levels_per_fuel = -filling[1] / (2.0 * root * spacing);
+            let mut airframe = bodies[level].airframe(&levels[level])?;
+            airframe.turning = bodies[level].products(&turned(level, &shapes));
+            for entry in airframe.turning.as_flattened_mut() {
+                *entry *= levels_per_fuel;
+            }
+            Ok(airframe.to_row())
+        };
+        let rows = (0..LEVELS).map(row).collect::<Result<Vec<_>, Error>>()?;
         Ok(Self { filling, start, spacing, pieces: pieces(&rows) })
     }
 

@@ -6,16 +6,20 @@
 
 mod airframe;
 mod burning;
+mod limits;
 mod modal;
 mod outputs;
+mod sensors;
 mod stream;
 
 pub use airframe::{Airframe, COEFFICIENTS};
 pub use outputs::{Loads, Outputs};
+pub use sensors::{Imu, Stations};
 
 use crate::aero::Aero;
 use crate::atmosphere::Atmosphere;
 use crate::burn::Burn;
+use crate::choking::Choking;
 use crate::intake::Intake;
 use crate::modes::MODES;
 use crate::scalar::{Over, Scalar};
@@ -40,6 +44,10 @@ pub const NOMINAL: [f64; STATES] =
 pub type State<S = f64> = [S; STATES];
 /// Effective elevator deflection (rad) and fuel equivalence ratio.
 pub type Control<S = f64> = [S; CONTROLS];
+/// Velocity of the air, m/s: vertical, up positive, and horizontal, along the flight direction.
+pub type Gust<S = f64> = [S; GUSTS];
+/// Components of a gust.
+pub const GUSTS: usize = 2;
 
 /// The vehicle in one configuration, ready to fly. Per metre of width.
 #[derive(Debug, Clone)]
@@ -60,6 +68,10 @@ pub struct Vehicle {
     pub burn: Option<Arc<Burn>>,
     /// What the engine swallows.
     pub intake: Intake,
+    /// When its burner chokes.
+    pub choking: Choking,
+    /// Where the sensors sit.
+    pub stations: Stations,
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
 }
@@ -71,6 +83,8 @@ struct Met<S> {
     per_speed: S,
     /// Dynamic pressure by the reference area, N/m.
     force: S,
+    /// m/s.
+    sound_speed: S,
     coefficients: Coefficients<S>,
     loads: Loads<S>,
 }
@@ -83,7 +97,7 @@ impl Vehicle {
 
     /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
-        let still = S::constant(0.0);
+        let still = [S::constant(0.0); GUSTS];
         match &self.burn {
             None => self.met(&self.airframe, x, u, still).loads,
             Some(burn) => self.met(&burn.airframe(x[FUEL]), x, u, still).loads,
@@ -97,7 +111,7 @@ impl Vehicle {
         airframe: &Airframe<C>,
         x: &State<S>,
         u: &Control<S>,
-        gust: S,
+        gust: Gust<S>,
     ) -> Met<S> {
         let stream = Stream::new(x, gust);
         let (speed, alpha, (sin, cos)) = (stream.speed, stream.incidence, stream.axis);
@@ -120,38 +134,55 @@ impl Vehicle {
             thrust,
             moment: thrust * self.aero.thrust_arm + force * (c_m * self.aero.chord + c_n * shift),
             normal: force * c_n,
+            axial: force * (c_d * cos - c_l * sin),
         };
-        Met { stream, per_speed, force, coefficients, loads }
+        Met { stream, per_speed, force, sound_speed: air.sound_speed, coefficients, loads }
     }
 
-    /// Eq. (3): time derivatives of all states, in air that rises at `gust`, m/s.
+    /// Eq. (3): time derivatives of all states, in moving air.
     ///
     /// Beyond eq. (3), which knows still air only: lift and drag are those of the speed and the
     /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
     /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
-    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> State<S> {
+    pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: Gust<S>) -> State<S> {
         match &self.burn {
             None => self.rates(&self.airframe, &self.met(&self.airframe, x, u, gust), x),
-            Some(burn) => self.burning(burn, x, u, gust).0,
+            Some(burn) => self.burning(burn, x, u, gust, |_, _, rates| rates),
         }
     }
 
-    /// Everything that is shown beside the states, in air that rises at `gust`, m/s.
-    pub fn outputs<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> Outputs<S> {
-        match &self.burn {
-            None => self.shown(&self.airframe, self.met(&self.airframe, x, u, gust).loads, x),
-            Some(burn) => self.burning(burn, x, u, gust).1,
-        }
-    }
-
-    /// [`Vehicle::derivatives`] and [`Vehicle::outputs`] for little more than one of them.
-    pub fn both<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: S) -> (State<S>, Outputs<S>) {
+    /// [`Vehicle::derivatives`], and everything that is shown beside the states.
+    pub fn both<S: Scalar>(
+        &self,
+        x: &State<S>,
+        u: &Control<S>,
+        gust: Gust<S>,
+    ) -> (State<S>, Outputs<S>) {
         if let Some(burn) = &self.burn {
-            return self.burning(burn, x, u, gust);
+            return self.burning(burn, x, u, gust, |airframe, met, rates| {
+                (rates, self.shown(airframe, &met, x, u, &rates))
+            });
         }
         let met = self.met(&self.airframe, x, u, gust);
         let rates = self.rates(&self.airframe, &met, x);
-        (rates, self.shown(&self.airframe, met.loads, x))
+        (rates, self.shown(&self.airframe, &met, x, u, &rates))
+    }
+
+    /// Everything that is shown beside the states, whose rates are known.
+    pub fn outputs<S: Scalar>(
+        &self,
+        x: &State<S>,
+        u: &Control<S>,
+        gust: Gust<S>,
+        rates: &State<S>,
+    ) -> Outputs<S> {
+        match &self.burn {
+            None => self.shown(&self.airframe, &self.met(&self.airframe, x, u, gust), x, u, rates),
+            Some(burn) => {
+                let airframe = burn.airframe(x[FUEL]);
+                self.shown(&airframe, &self.met(&airframe, x, u, gust), x, u, rates)
+            }
+        }
     }
 
     /// Eq. (3) in known air, at one fuel level.
@@ -198,16 +229,27 @@ impl Vehicle {
     fn shown<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        loads: Loads<S>,
+        met: &Met<S>,
         x: &State<S>,
+        u: &Control<S>,
+        rates: &State<S>,
     ) -> Outputs<S> {
-        let slosh = std::array::from_fn(|tank| {
-            let parts = airframe.slosh[tank].iter().enumerate();
-            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
-        });
-        let weight = airframe.mass * self.atmosphere.sea_level_gravity();
-        let n_z = loads.normal * (C::constant(1.0) / weight);
-        Outputs { loads, theta: x[2] + x[3], slosh, n_z }
+        let gravity = self.atmosphere.sea_level_gravity();
+        let Stations { imu, probe } = self.stations;
+        Outputs {
+            loads: met.loads,
+            theta: x[2] + x[3],
+            slosh: airframe.sloshing(x),
+            n_z: met.loads.normal * (C::constant(1.0) / (airframe.mass * gravity)),
+            imu: sensors::imu(airframe, met, x, rates, imu, gravity),
+            alpha_probe: sensors::vane(airframe, met, x, rates, probe),
+            choking_margin: self.choking_margin(met, u),
+        }
+    }
+
+    fn choking_margin<S: Scalar>(&self, met: &Met<S>, u: &Control<S>) -> S {
+        let inflow = met.coefficients.inflow;
+        self.choking.margin(met.loads.mach, inflow, met.sound_speed, u[1])
     }
 
     /// Smallest and largest elevator deflection (rad) and fuel equivalence ratio.

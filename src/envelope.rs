@@ -12,6 +12,8 @@ pub struct Envelope {
     pub mach: [f64; 2],
     /// Altitude, m.
     pub altitude: [f64; 2],
+    /// Least margin of the burner from thermal choking, if the fits end there.
+    pub choking_margin: Option<f64>,
 }
 
 /// A limited variable with its value and limits, in the units of the variable table.
@@ -51,6 +53,11 @@ impl Envelope {
     /// The variable that is outside its limits or, inside all, next to them.
     pub fn tightest(&self, atmosphere: &Atmosphere, x: &State) -> Limited {
         let [first, rest @ ..] = self.limited(atmosphere, x);
-        rest.into_iter().fold(first, |a, b| if b.margin() < a.margin() { b } else { a })
+        tightest(first, rest)
     }
+}
+
+/// The one with the smallest margin.
+pub fn tightest(first: Limited, rest: impl IntoIterator<Item = Limited>) -> Limited {
+    rest.into_iter().fold(first, |a, b| if b.margin() < a.margin() { b } else { a })
 }

@@ -34,6 +34,22 @@ pub enum Error {
         /// Modes found.
         found: usize,
     },
+    /// No body with these masses and tanks has the pitch inertia that is asked for.
+    #[error(
+        "a pitch inertia of {inertia:.5e} kg m^2/m is refused: beam and sloshing masses, {own:.5e} by \
+         themselves, with the mass centre moved by {shift_m:.3} m, need more than {least:.5e}; raise \
+         inertia_factor or inertia.i_yy_kg_m2_per_m, or move the tanks towards the mass centre"
+    )]
+    Inertia {
+        /// Inertia about the mass centre that is asked for, kg m^2/m.
+        inertia: f64,
+        /// The least that leaves the beam a positive kinetic energy, kg m^2/m.
+        least: f64,
+        /// Inertia by density and sloshing masses, kg m^2/m.
+        own: f64,
+        /// Mass centre asked for less that by density and sloshing masses, m.
+        shift_m: f64,
+    },
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
         "no trim at mach0 = {mach}, altitude0 = {altitude_m} m, gamma0 = {gamma_rad} rad: {limit} \

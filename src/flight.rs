@@ -6,12 +6,12 @@ mod snapshot;
 mod steered;
 mod tangent;
 
-pub use inputs::{GUST, INPUT_ORDER, INPUTS, Inputs};
+pub use inputs::{INPUT_ORDER, INPUTS, Inputs};
 pub use ready::method;
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, FUEL, Outputs, STATES, State, Vehicle};
+use crate::dynamics::{Control, FUEL, Gust, Outputs, STATES, State, Vehicle};
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, System};
 use crate::parameters::Parameters;
@@ -55,9 +55,8 @@ pub struct Flight {
     sample: Option<Sample>,
 }
 
-fn left(vehicle: &Vehicle, state: &State, gust: f64, time_s: f64) -> Error {
-    let met = Vehicle::as_met(state, gust);
-    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, &met);
+fn left(vehicle: &Vehicle, state: &State, (control, gust): (Control, Gust), time_s: f64) -> Error {
+    let tightest = vehicle.tightest(state, &control, gust);
     if vehicle.burn.is_some() && state[FUEL] <= tightest.margin() * vehicle.fuel {
         return Error::Fuel { time_s };
     }
@@ -103,7 +102,7 @@ impl Flight {
         &self.inputs
     }
 
-    /// Sets one input: 0 elevator (rad), 1 fuel ratio, 2 gust (m/s).
+    /// Sets one input: 0 elevator (rad), 1 fuel ratio, 2 vertical and 3 horizontal gust (m/s).
     pub fn set_input(&mut self, index: usize, value: f64) {
         if self.inputs.values[index] != value {
             self.slope = None;
@@ -151,13 +150,12 @@ impl Flight {
     /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::initialise`].
     pub fn check(&mut self) -> Result<(), Error> {
         self.initialise()?;
-        let gust = self.inputs.values[GUST];
-        match self.vehicle() {
-            Some(vehicle) if !vehicle.holds(&self.state, gust) => {
-                Err(left(vehicle, &self.state, gust, self.time))
-            }
-            _ => Ok(()),
+        let Some(ready) = &self.ready else { return Ok(()) };
+        let (control, gust) = self.control(ready);
+        if ready.vehicle.holds(&self.state, &control, gust) {
+            return Ok(());
         }
+        Err(left(&ready.vehicle, &self.state, (control, gust), self.time))
     }
 
     /// Vehicle, once initialised.
@@ -181,7 +179,7 @@ impl Flight {
     }
 
     /// Controls in effect, cut to the actuators' limits, and gust.
-    fn control(&self, ready: &Ready) -> (Control, f64) {
+    fn control(&self, ready: &Ready) -> (Control, Gust) {
         in_effect(&ready.vehicle, &ready.base, &self.inputs.values)
     }
 
@@ -194,7 +192,7 @@ impl Flight {
         if let (None, Some(ready)) = (&self.sample, &self.ready) {
             let (control, gust) = self.control(ready);
             let (derivatives, outputs) = match self.slope {
-                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust)),
+                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust, &slope)),
                 None => ready.vehicle.both(&self.state, &control, gust),
             };
             self.slope = Some(derivatives);
@@ -248,7 +246,8 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                Err(left(&ready.vehicle, state, inputs.values[GUST], self.time))
+                let air = in_effect(&ready.vehicle, &ready.base, &inputs.values);
+                Err(left(&ready.vehicle, state, air, self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

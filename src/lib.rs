@@ -7,6 +7,7 @@
 //! | [`atmosphere`] | air and gravity | US Standard Atmosphere 1976 |
 //! | [`slosh`] | liquid in the tanks | Fig. 4 |
 //! | [`beam`], [`hermite`] | elements, mass, statics; shapes between the nodes | eqs (1)-(2) |
+//! | [`rigid_body`] | the one inertia of pitch, bending and slosh | |
 //! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
 //! | [`aero`], [`envelope`] | curve fits at run time, and where they hold | eq. (4) |
 //! | [`aeroelastic`] | where the elastic terms come from | eq. (4) |
@@ -14,10 +15,12 @@
 //! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
+//! | [`choking`] | how far the burner is from thermal choking | |
+//! | [`factors`] | what may be uncertain | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
 //! | [`exponential`], [`decoupling`], [`blocks`] | the oscillators exactly, the rest as a polynomial | knows no aircraft |
-//! | [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
+//! | [`assembly`], [`vehicle`], [`parameters`], [`flight`] | data to vehicle; parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
 //! | [`errata`] | where the paper is wrong or silent, with derivations | |
 //! | [`fmi`] | the FMU's C interface | FMI 2.0.5 |
@@ -29,10 +32,12 @@
 
 pub mod aero;
 pub mod aeroelastic;
+pub mod assembly;
 pub mod atmosphere;
 pub mod beam;
 pub mod blocks;
 pub mod burn;
+pub mod choking;
 pub mod decoupling;
 pub mod dop853;
 pub mod dynamics;
@@ -41,6 +46,7 @@ pub mod envelope;
 pub mod errata {}
 pub mod error;
 pub mod exponential;
+pub mod factors;
 pub mod flight;
 pub mod fmi;
 pub mod gas;
@@ -51,6 +57,7 @@ pub mod linear;
 pub mod modes;
 pub mod parameters;
 pub mod params;
+pub mod rigid_body;
 pub mod scalar;
 pub mod shock_expansion;
 pub mod slosh;

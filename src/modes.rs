@@ -11,7 +11,7 @@ mod turn;
 
 use crate::beam::{Beam, Oscillator};
 use crate::error::Error;
-use crate::hermite::Shape;
+use crate::hermite::{Point, Shape};
 
 /// Flexible modes kept.
 pub const FLEXIBLE: usize = 3;
@@ -104,6 +104,15 @@ impl Modes {
         self.beam_energy_share[i] = (1.0 - springs / omega2).clamp(0.0, 1.0);
         let nodal = &u[..structure.beam.unknowns()];
         self.shape.push(Shape::scaled(nodal, 1.0 / unit));
+    }
+
+    /// Deflection and slope (1/m) of each mode at a place.
+    pub fn at(&self, place: &Point) -> [[f64; MODES]; 2] {
+        let mut at = [[0.0; MODES]; 2];
+        for (i, shape) in self.shape.iter().enumerate() {
+            (at[0][i], at[1][i]) = (shape.w_at(place), shape.slope_at(place));
+        }
+        at
     }
 
     /// Modal stiffness matrix K of `eta'' + D eta' + K eta = N / mu`, 1/s^2.

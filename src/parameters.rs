@@ -1,6 +1,8 @@
 //! What can be chosen before a flight.
 
-use crate::modes::FLEXIBLE;
+use crate::dynamics::Stations;
+use crate::factors::Factors;
+use crate::modes::{FLEXIBLE, MODES};
 use crate::trim::Condition;
 use crate::vehicle::{AeroSet, Build, Configuration, Data};
 
@@ -11,6 +13,19 @@ pub enum InputMode {
     DeviationFromTrim = 1,
     /// The controls themselves.
     Absolute = 2,
+}
+
+/// Added to the initial state.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Offsets {
+    /// Incidence, rad.
+    pub alpha: f64,
+    /// Pitch rate, rad/s.
+    pub q: f64,
+    /// Flexible modal coordinates, then displacements of the sloshing masses against their tanks, m.
+    pub displacement: [f64; MODES],
+    /// Their rates, m/s.
+    pub rate: [f64; MODES],
 }
 
 /// What can be chosen before a flight.
@@ -28,6 +43,8 @@ pub struct Parameters {
     pub q0: f64,
     /// Flexible modal coordinates to start from without trim, m at the nose.
     pub eta0: [f64; FLEXIBLE],
+    /// Disturbance of the start.
+    pub offsets: Offsets,
 }
 
 impl Parameters {
@@ -47,12 +64,18 @@ impl Parameters {
                     altitude: default.altitude_m.value,
                     gamma: 0.0,
                 },
+                stations: Stations {
+                    imu: default.imu_station_m.value,
+                    probe: default.probe_station_m.value,
+                },
+                factors: Factors::default(),
             },
             trim: true,
             input_mode: InputMode::DeviationFromTrim,
             alpha0: 0.0,
             q0: 0.0,
             eta0: [0.0; FLEXIBLE],
+            offsets: Offsets::default(),
         }
     }
 }

@@ -79,6 +79,8 @@ pub struct SloshingTank {
     pub centre_m: f64,
     /// Extent of the frozen liquid along the body, m.
     pub length_m: f64,
+    /// Mean depth of the liquid, m.
+    pub depth_m: f64,
     /// All the liquid, kg/m.
     pub liquid_mass: f64,
     /// Liquid that moves with the walls, kg/m.
@@ -131,7 +133,8 @@ impl SloshingTank {
 
     fn new(tank: &TankData, propellant: f64, filling: f64, settings: &SloshSettings) -> Self {
         let bay_length = tank.bay_length_m.value;
-        let depth_ratio = tank.depth_full_m.value * filling / bay_length;
+        let depth_m = tank.depth_full_m.value * filling;
+        let depth_ratio = depth_m / bay_length;
         let liquid_mass = tank.share.value * propellant;
         let sloshing_mass = liquid_mass * mass_ratio(depth_ratio);
         let omega = if settings.frequency_rad_per_s > 0.0 {
@@ -142,6 +145,7 @@ impl SloshingTank {
         Self {
             centre_m: tank.centre_m.value,
             length_m: tank.length_m.value,
+            depth_m,
             liquid_mass,
             frozen_mass: liquid_mass - sloshing_mass,
             sloshing_mass,

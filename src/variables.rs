@@ -54,7 +54,7 @@ pub enum Role {
     Calculated,
 }
 
-/// On which states (bits 0 to 15) and inputs (bits 16 to 18) a variable depends, and how: each bit
+/// On which states (bits 0 to 15) and inputs (bits 16 to 19) a variable depends, and how: each bit
 /// in one mask only.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Dependencies {

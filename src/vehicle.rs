@@ -2,18 +2,21 @@
 
 use crate::aero::Aero;
 use crate::aeroelastic::{Strips, derive};
+use crate::assembly::Chosen;
 use crate::atmosphere::Atmosphere;
 use crate::beam::{Beam, MassProperties, Oscillator};
 use crate::burn::Burn;
-use crate::dynamics::{Airframe, Vehicle};
+use crate::choking::Choking;
+use crate::dynamics::{Airframe, Stations, Vehicle};
 use crate::error::Error;
+use crate::factors::Factors;
 use crate::intake::Intake;
-use crate::modes::{MODES, Modes};
+use crate::modes::{MODES, Modes, SLOSH};
 use crate::params::{
     AeroData, DataFile, EARTH, EarthData, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData,
     XU2015,
 };
-use crate::slosh::{SloshSettings, SloshingTank, fuel_kg_per_m};
+use crate::slosh::fuel_kg_per_m;
 use crate::trim::Condition;
 use std::sync::Arc;
 
@@ -58,6 +61,10 @@ pub struct Build {
     pub slosh_frequency: f64,
     /// Flight condition: the tanks' geometry gives a frequency only under its effective gravity.
     pub condition: Condition,
+    /// Where the sensors sit.
+    pub stations: Stations,
+    /// What is uncertain.
+    pub factors: Factors,
 }
 
 /// All data files, read and checked.
@@ -104,40 +111,15 @@ impl Data {
     }
 }
 
-/// Least gravity, over gravity at rest, for which a vehicle is put together.
-const WEIGHTLESS: f64 = 1e-3;
-
-/// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
-/// steady flight.
-fn effective_gravity(data: &Data, condition: &Condition) -> f64 {
-    let atmosphere = Atmosphere::new(&data.earth);
-    let start = condition.start(&atmosphere);
-    let (gravity, distance) = atmosphere.gravity(start[1]);
-    let felt = (gravity - start[0] * start[0] / distance) * libm::cos(start[2]);
-    // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
-    felt.max(WEIGHTLESS * gravity)
-}
-
-/// The beam of a configuration with the sloshing masses on it.
+/// [`Chosen::structure`] of a build.
 ///
 /// # Errors
-/// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
+/// Those of [`Chosen::structure`].
 pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), Error> {
-    if build.configuration != Configuration::SloshBeam {
-        return Ok((Beam::even(&data.vehicle, build.fuel_fraction), Vec::new()));
-    }
-    let settings = SloshSettings {
-        damping_ratio: build.slosh_damping,
-        frequency_rad_per_s: build.slosh_frequency,
-        gravity_m_per_s2: effective_gravity(data, &build.condition),
-    };
-    let tanks = SloshingTank::pair(&data.vehicle, build.fuel_fraction, &settings)?;
-    let beam = Beam::slosh(&data.vehicle, &tanks);
-    let oscillators = tanks.iter().map(|tank| beam.attach(tank)).collect();
-    Ok((beam, oscillators))
+    Chosen::new(data, build).structure()
 }
 
-/// What a build does not owe to its coefficient set: beam, sloshing masses and modes.
+/// Beam, sloshing masses and modes of a vehicle at one fuel level.
 #[derive(Debug, Clone)]
 pub struct Body {
     beam: Beam,
@@ -145,41 +127,32 @@ pub struct Body {
     modes: Modes,
     strips: Strips,
     properties: MassProperties,
-    /// Pitch inertia over that of the full vehicle.
-    inertia_left: f64,
 }
 
 impl Body {
     /// Assembles the beam and solves for its modes.
     ///
     /// # Errors
-    /// [`Error`] if the tanks give no frequency or the modes cannot be found.
-    pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        let (beam, oscillators) = structure(data, build)?;
+    /// Those of [`Chosen::structure`]; [`Error::Modes`] if the modes cannot be found.
+    pub fn new(chosen: &Chosen) -> Result<Self, Error> {
+        let (beam, oscillators) = chosen.structure()?;
         let properties = beam.mass_properties(&oscillators);
-        let full = if build.fuel_fraction == 1.0 {
-            properties
-        } else {
-            let (beam, oscillators) = structure(data, &Build { fuel_fraction: 1.0, ..*build })?;
-            beam.mass_properties(&oscillators)
-        };
-        let modes = match build.configuration {
+        let modes = match chosen.build.configuration {
             Configuration::Rigid => Modes::default(),
             _ => Modes::solve(&beam, &oscillators)?,
         };
-        let inertia_left = properties.inertia / full.inertia;
-        let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
-        Ok(Self { beam, oscillators, modes, strips, properties, inertia_left })
+        let strips = Strips::new(&beam, &modes, &chosen.vehicle.geometry);
+        Ok(Self { beam, oscillators, modes, strips, properties })
     }
 
     /// The same body, its modes in the basis nearest to those of another fuel level.
     ///
     /// # Errors
     /// Those of [`Modes::turned`].
-    pub fn turned(mut self, data: &Data, reference: &Self) -> Result<Self, Error> {
+    pub fn turned(mut self, chosen: &Chosen, reference: &Self) -> Result<Self, Error> {
         let reference = (&reference.modes, &reference.oscillators[..]);
         self.modes = self.modes.turned(&self.beam, &self.oscillators, reference)?;
-        self.strips = Strips::new(&self.beam, &self.modes, &data.vehicle.geometry);
+        self.strips = Strips::new(&self.beam, &self.modes, &chosen.vehicle.geometry);
         Ok(self)
     }
 
@@ -193,31 +166,37 @@ impl Body {
         self.modes.products(&self.beam, &self.oscillators, displacements)
     }
 
-    /// What the equations of flight need of it, with a coefficient set around it.
+    /// What the equations of flight need of it, with the coefficient set around it.
     ///
-    /// The set's inertia is that of the full vehicle; with less propellant it falls as the beam's
-    /// own inertia does.
-    pub fn airframe(&self, data: &Data, build: &Build, set: &AeroData) -> Airframe {
-        let Self { beam, oscillators, modes, strips, properties, inertia_left } = self;
+    /// # Errors
+    /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
+    pub fn airframe(&self, chosen: &Chosen) -> Result<Airframe, Error> {
+        let Self { beam, oscillators, modes, strips, properties } = self;
+        let Chosen { aero, build, .. } = chosen;
         // A force m g up on each sloshing mass and down on its tank.
-        let gravity = effective_gravity(data, &build.condition);
-        let damping = modes.damping(oscillators, &set.inertia.structural_damping.value);
+        let gravity = chosen.effective_gravity();
+        let damping = modes.damping(oscillators, &aero.inertia.structural_damping.value);
         let floor = std::array::from_fn(|i| {
             let weights = oscillators.iter().zip(&modes.slosh_displacement);
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
             if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
         });
-        Airframe {
+        let rate = build.factors.pitch_rate;
+        let tanks = chosen.tanks(build.fuel_fraction)?;
+        Ok(Airframe {
             mass: properties.mass,
-            inertia: set.inertia.i_yy_kg_m2_per_m.value * inertia_left,
+            inertia: properties.inertia,
             mass_centre: properties.centre_m,
-            elastic: derive(&Aero::new(set), beam, modes, strips, properties.centre_m),
+            elastic: derive(&Aero::new(aero), beam, modes, strips, properties.centre_m, rate),
             stiffness: modes.stiffness(),
             damping: std::array::from_fn(|k| damping.map(|row| row[k])),
             floor,
             slosh: modes.slosh_displacement,
             turning: Default::default(),
-        }
+            imu: modes.at(&beam.point(build.stations.imu)),
+            probe: modes.at(&beam.point(build.stations.probe)),
+            depth: tanks.map_or([0.0; SLOSH], |tanks| tanks.map(|tank| tank.depth_m)),
+        })
     }
 }
 
@@ -225,28 +204,33 @@ impl Vehicle {
     /// Puts a vehicle together.
     ///
     /// # Errors
-    /// [`Error`] if the tanks give no frequency or the modes cannot be found.
+    /// [`Error::Value`] if a sensor is off the body; those of [`Body::new`]; [`Error::Value`] if the
+    /// modes cannot be followed while fuel burns.
     pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        let (body, set) = (Body::new(data, build)?, data.aero(build.aero));
-        let burn = build.fuel_burn.then(|| Burn::new(data, build, &body, set)).transpose()?;
-        Ok(Self { burn: burn.map(Arc::new), ..Self::with_body(data, build, &body, set) })
+        Self::chosen(&Chosen::new(data, build))
     }
 
-    /// The vehicle of a build with any coefficient set around its body; its fuel does not burn.
-    pub fn with_body(data: &Data, build: &Build, body: &Body, set: &AeroData) -> Self {
-        Self {
-            atmosphere: Atmosphere::new(&data.earth),
-            aero: Aero::new(set),
+    /// [`Vehicle::new`] with any coefficient set.
+    ///
+    /// # Errors
+    /// Those of [`Vehicle::new`].
+    pub fn chosen(chosen: &Chosen) -> Result<Self, Error> {
+        let Chosen { vehicle, earth, aero, build } = chosen;
+        build.stations.check(vehicle.geometry.length_m.value)?;
+        let body = Body::new(chosen)?;
+        let burn = build.fuel_burn.then(|| Burn::new(chosen, &body)).transpose()?;
+        Ok(Self {
+            atmosphere: Atmosphere::new(earth),
+            aero: Aero::new(aero),
             modes: body.modes.count,
-            fuel: fuel_kg_per_m(&data.vehicle, build.fuel_fraction),
+            fuel: fuel_kg_per_m(vehicle, build.fuel_fraction),
             omega: body.modes.omega_rad_per_s,
-            airframe: body.airframe(data, build, set),
-            burn: None,
-            intake: Intake::new(&data.vehicle, &data.earth),
-            limits: [
-                data.vehicle.actuation.delta_e_limit_rad.value,
-                data.vehicle.actuation.phi_limit.value,
-            ],
-        }
+            airframe: body.airframe(chosen)?,
+            burn: burn.map(Arc::new),
+            intake: Intake::new(vehicle, earth),
+            choking: Choking::new(vehicle, earth),
+            stations: build.stations,
+            limits: [vehicle.actuation.delta_e_limit_rad.value, vehicle.actuation.phi_limit.value],
+        })
     }
 }

@@ -64,7 +64,7 @@ pub struct Counted<'a> {
 impl System<STATES> for Counted<'_> {
     fn derivatives(&self, _: f64, x: &State) -> State {
         self.calls.set(self.calls.get() + 1);
-        self.vehicle.derivatives(x, &self.control, 0.0)
+        self.vehicle.derivatives(x, &self.control, [0.0; 2])
     }
     fn holds(&self, _: f64, _: &State) -> bool {
         true

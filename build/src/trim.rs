@@ -44,7 +44,7 @@ pub fn run(options: &Analyse) -> Result<()> {
     let flight = flight(&model, &options.set)?;
     let (vehicle, trim) = ready(&flight)?;
     let loads = vehicle.loads(&trim.state, &trim.control);
-    let outputs = vehicle.outputs(&trim.state, &trim.control, 0.0);
+    let (_, outputs) = vehicle.both(&trim.state, &trim.control, [0.0; 2]);
     let (gravity, _) = vehicle.atmosphere.gravity(trim.state[1]);
     let [v, h, gamma, alpha, ..] = trim.state;
     let [delta_e, phi] = trim.control;

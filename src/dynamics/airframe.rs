@@ -1,7 +1,9 @@
 //! What the fuel level decides of a vehicle.
 
+use super::{RIGID, State};
 use crate::aero::{Elastic, ModalForces, PerMode};
 use crate::modes::{MODES, SLOSH};
+use crate::scalar::{Over, Scalar};
 
 /// Mass, elastic terms and modes at one fuel level, per metre of width; in plain numbers, or in such
 /// as carry derivatives by the fuel.
@@ -28,6 +30,12 @@ pub struct Airframe<C = f64> {
     /// How the shapes turn with the fuel f, in the product of the mass matrix M:
     /// `phi_i^T M (d phi_k / df) / mu_i`, m/kg.
     pub turning: [PerMode<C>; MODES],
+    /// Deflection and slope (1/m) of the modes at the IMU.
+    pub imu: [PerMode<C>; 2],
+    /// The same at the probe.
+    pub probe: [PerMode<C>; 2],
+    /// Depth of the liquid in the fore and aft tank, m; 0 where nothing sloshes.
+    pub depth: [C; SLOSH],
 }
 
 /// Numbers in an airframe.
@@ -35,13 +43,12 @@ pub const COEFFICIENTS: usize = size_of::<Airframe>() / size_of::<f64>();
 
 impl<C> Airframe<C> {
     /// All numbers, in a fixed order.
-    fn parts(&mut self) -> [&mut [C]; 15] {
+    fn parts(&mut self) -> [&mut [C]; 18] {
         use std::slice::from_mut as one;
         let Self { mass, inertia, mass_centre, elastic, .. } = self;
-        let Self { stiffness, damping, floor, slosh, turning, .. } = self;
-        let Elastic { per, force } = elastic;
-        let ModalForces { alpha, delta_e, plume, .. } = force;
-        let ModalForces { pitch_rate, thrust_across, thrust_couple, .. } = force;
+        let Self { stiffness, damping, floor, slosh, turning, imu, probe, depth, .. } = self;
+        let Elastic { per, pitch_rate, force } = elastic;
+        let ModalForces { alpha, delta_e, plume, thrust_across, thrust_couple } = force;
         [
             one(mass),
             one(inertia),
@@ -58,7 +65,20 @@ impl<C> Airframe<C> {
             floor,
             slosh.as_flattened_mut(),
             turning.as_flattened_mut(),
+            imu.as_flattened_mut(),
+            probe.as_flattened_mut(),
+            depth,
         ]
+    }
+}
+
+impl<C: Copy> Airframe<C> {
+    /// Displacement of the sloshing mass in the fore and aft tank, m.
+    pub fn sloshing<S: Scalar + Over<C>>(&self, x: &State<S>) -> [S; SLOSH] {
+        self.slosh.map(|tank| {
+            let parts = tank.iter().enumerate();
+            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
+        })
     }
 }
 

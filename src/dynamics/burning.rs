@@ -1,24 +1,25 @@
 //! Flight with fuel that burns.
 
-use super::{Control, FUEL, Outputs, RIGID, State, Vehicle};
+use super::{Airframe, Control, FUEL, Gust, Met, RIGID, State, Vehicle};
 use crate::burn::Burn;
 use crate::scalar::Scalar;
 
 impl Vehicle {
-    /// Rates and outputs while fuel burns.
+    /// Rates while fuel burns, and what `f` makes of them.
     ///
     /// Fuel leaves its place with the velocity that it has there, so `M u'' + K u = F` holds for the
     /// displacement u of the beam at any fuel f. In modal coordinates, `u = Phi(f) eta`, this becomes
     /// `eta'' + 2 f' B eta' + D eta' + K eta = N` with `B = mu^-1 Phi^T M dPhi/df`. What is left out,
     /// `(f'^2 mu^-1 Phi^T M d^2Phi/df^2 + f'' B) eta`, is of second order in f' (errata, 22).
     #[inline(never)]
-    pub(super) fn burning<S: Scalar>(
+    pub(super) fn burning<S: Scalar, T>(
         &self,
         burn: &Burn,
         x: &State<S>,
         u: &Control<S>,
-        gust: S,
-    ) -> (State<S>, Outputs<S>) {
+        gust: Gust<S>,
+        f: impl FnOnce(&Airframe<S>, Met<S>, State<S>) -> T,
+    ) -> T {
         let airframe = burn.airframe(x[FUEL]);
         let met = self.met(&airframe, x, u, gust);
         let mut rates = self.rates(&airframe, &met, x);
@@ -39,7 +40,7 @@ impl Vehicle {
             }
             rates[RIGID + 2 * i + 1] = rates[RIGID + 2 * i + 1] - coupling;
         }
-        (rates, self.shown(&airframe, met.loads, x))
+        f(&airframe, met, rates)
     }
 
     /// Whether fuel burns and none is left; a mass that is not a number counts as none.

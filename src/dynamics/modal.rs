@@ -5,7 +5,7 @@
 //! memory in pairs, a compiler packs them in pairs as well.
 
 use super::{Airframe, Control, Met, RIGID, State};
-use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INFLOW, LIFT, MOMENT};
+use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
 use crate::modes::MODES;
 use crate::scalar::{Over, Scalar};
 use multiversion::multiversion;
@@ -26,6 +26,8 @@ pub struct Coefficients<S> {
     pub plume: S,
     /// The elevator's lift over its slope at zero, rad.
     pub elevator: S,
+    /// Incidence of the body, rad: that of the mean axes and what sloshing liquid turns it by.
+    pub incidence: S,
     /// Incidence of the engine's inflow, rad.
     pub inflow: S,
     /// What the air answers to the shape: the rows of [`Elastic::per`].
@@ -47,16 +49,25 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
         add(&mut elastic, x[RIGID + 2 * k], per_eta);
         add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
     }
-    let (delta_e, phi, inflow) = (u[0], u[1], alpha + elastic[INFLOW]);
-    let incidence = [alpha, alpha, alpha, inflow];
+    add(&mut elastic, x[4] * per_speed, &terms.pitch_rate);
+    let (delta_e, phi, body) = (u[0], u[1], alpha + elastic[INCIDENCE]);
+    let inflow = body + elastic[INFLOW];
+    let incidence = [body, body, body, inflow];
     let own = [elastic[LIFT], elastic[DRAG], elastic[MOMENT], S::constant(0.0)];
     let fuel: [S; FITS] =
         std::array::from_fn(|row| phi * aero.fits_phi.row(row).body(incidence[row]));
-    let body = std::array::from_fn(|row| {
+    let coefficients = std::array::from_fn(|row| {
         aero.fits.row(row).at(incidence[row], delta_e) + fuel[row] + own[row]
     });
     let elevator = (delta_e * delta_e * aero.elevator_bend + 1.0) * delta_e;
-    Coefficients { body, plume: fuel[LIFT], elevator, inflow, elastic }
+    Coefficients {
+        body: coefficients,
+        plume: fuel[LIFT],
+        elevator,
+        incidence: body,
+        inflow,
+        elastic,
+    }
 }
 
 /// Second derivatives of the modal coordinates.
@@ -67,14 +78,13 @@ pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
     x: &State<S>,
 ) -> [S; MODES] {
     let (of, n) = (&met.coefficients, &airframe.elastic.force);
-    let (alpha, thrust) = (met.stream.incidence, met.loads.thrust);
+    let (alpha, thrust) = (of.incidence, met.loads.thrust);
     // Over qbar S.
     let mut air = n.alpha[0].map(S::of);
     add(&mut air, alpha, &n.alpha[1]);
     add(&mut air, alpha * alpha, &n.alpha[2]);
     add(&mut air, of.elevator, &n.delta_e);
     add(&mut air, of.plume, &n.plume);
-    add(&mut air, x[4] * met.per_speed, &n.pitch_rate);
     let mut sum = airframe.floor.map(S::of);
     add(&mut sum, thrust * met.stream.axis.0, &n.thrust_across);
     add(&mut sum, thrust, &n.thrust_couple);

@@ -1,5 +1,6 @@
 //! What a flight shows beside its states.
 
+use super::Imu;
 use crate::modes::SLOSH;
 
 /// Forces on the vehicle, per metre of width.
@@ -19,6 +20,8 @@ pub struct Loads<S> {
     pub moment: S,
     /// Aerodynamic force normal to the body axis, N/m.
     pub normal: S,
+    /// Aerodynamic force along the body axis, aft positive, N/m.
+    pub axial: S,
 }
 
 /// What a flight shows beside its states.
@@ -32,6 +35,12 @@ pub struct Outputs<S = f64> {
     pub slosh: [S; SLOSH],
     /// Normal load factor at the mass centre, g.
     pub n_z: S,
+    /// What the inertial measurement unit shows.
+    pub imu: Imu<S>,
+    /// Incidence that the vane shows, rad.
+    pub alpha_probe: S,
+    /// Fuel ratio that can still be added before the burner chokes.
+    pub choking_margin: S,
 }
 
 impl<S: Copy> Loads<S> {
@@ -45,6 +54,7 @@ impl<S: Copy> Loads<S> {
             thrust: f(self.thrust),
             moment: f(self.moment),
             normal: f(self.normal),
+            axial: f(self.axial),
         }
     }
 }
@@ -57,6 +67,15 @@ impl<S: Copy> Outputs<S> {
             theta: f(self.theta),
             slosh: self.slosh.map(&f),
             n_z: f(self.n_z),
+            imu: Imu {
+                theta: f(self.imu.theta),
+                q: f(self.imu.q),
+                gamma: f(self.imu.gamma),
+                n_z: f(self.imu.n_z),
+                n_x: f(self.imu.n_x),
+            },
+            alpha_probe: f(self.alpha_probe),
+            choking_margin: f(self.choking_margin),
         }
     }
 }

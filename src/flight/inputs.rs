@@ -1,11 +1,9 @@
 //! Inputs between communication points: polynomials in time.
 
-use crate::dynamics::{CONTROLS, Control};
+use crate::dynamics::{CONTROLS, Control, GUSTS, Gust};
 
 /// Controls, then the gust.
-pub const INPUTS: usize = CONTROLS + 1;
-/// Number of the gust among the inputs.
-pub const GUST: usize = CONTROLS;
+pub const INPUTS: usize = CONTROLS + GUSTS;
 
 /// Highest derivative of an input that a master can give.
 pub const INPUT_ORDER: usize = 3;
@@ -13,7 +11,7 @@ pub const INPUT_ORDER: usize = 3;
 /// Inputs at the present instant and how they go on within the next step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs {
-    /// Present values: elevator (rad), fuel ratio, gust (m/s).
+    /// Present values: elevator (rad), fuel ratio, vertical and horizontal gust (m/s).
     pub values: [f64; INPUTS],
     /// Their first, second and third derivative, 1/s, 1/s^2, 1/s^3.
     pub derivatives: [[f64; INPUTS]; INPUT_ORDER],
@@ -45,9 +43,9 @@ impl Inputs {
     }
 
     /// The controls and the gust among the inputs.
-    pub fn split(inputs: &[f64; INPUTS]) -> (Control, f64) {
-        let [delta_e, phi, gust] = *inputs;
-        ([delta_e, phi], gust)
+    pub fn split(inputs: &[f64; INPUTS]) -> (Control, Gust) {
+        let [delta_e, phi, up, forward] = *inputs;
+        ([delta_e, phi], [up, forward])
     }
 
     /// Whether they change within the next step.

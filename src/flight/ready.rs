@@ -1,12 +1,13 @@
 //! What the parameters alone decide: vehicle, trim, and what the inputs are added to.
 
 use crate::decoupling::Decoupling;
-use crate::dynamics::{Control, FUEL, NOMINAL, RIGID, STATES, State, Vehicle};
+use crate::dynamics::{Control, FUEL, GUSTS, NOMINAL, RIGID, STATES, State, Vehicle};
+use crate::envelope::Limited;
 use crate::error::Error;
 use crate::exponential::Exponential;
 use crate::linear::Linear;
-use crate::modes::MODES;
-use crate::parameters::{InputMode, Parameters};
+use crate::modes::{FLEXIBLE, MODES, SLOSH};
+use crate::parameters::{InputMode, Offsets, Parameters};
 use crate::trim::{self, Trim};
 use crate::vehicle::Data;
 
@@ -24,9 +25,10 @@ pub struct Ready {
 impl Ready {
     /// Builds the vehicle and finds its initial state.
     fn new(data: &Data, parameters: &Parameters) -> Result<Self, Error> {
-        let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0 } = *parameters;
+        let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
+            *parameters;
         let vehicle = Vehicle::new(data, &build)?;
-        let trim = if trimmed {
+        let steady = if trimmed {
             trim::trim(&vehicle, &build.condition)?
         } else {
             let mut state = build.condition.start(&vehicle.atmosphere);
@@ -36,17 +38,19 @@ impl Ready {
             for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
                 state[RIGID + 2 * i] = eta;
             }
-            if !vehicle.aero.envelope.holds(&vehicle.atmosphere, &state) {
-                return Err(start_outside(&vehicle, &state));
-            }
             Trim { state, control: [0.0; 2] }
         };
+        let mut trim = steady;
+        disturb(&vehicle, &mut trim.state, &offsets);
+        if !vehicle.holds(&trim.state, &trim.control, [0.0; GUSTS]) {
+            return Err(start_outside(&vehicle, &trim, parameters));
+        }
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
         let base = if deviation { trim.control } else { [0.0; 2] };
         let steady = match trimmed {
-            true => trim,
+            true => steady,
             // Of the condition, so that a start from it flies as one with trim does.
-            false => trim::trim(&vehicle, &build.condition).unwrap_or(trim),
+            false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
         };
         let method = method(&vehicle, &steady);
         Ok(Self { vehicle, trim, base, method })
@@ -81,15 +85,56 @@ pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, SLOW, FAS
     Exponential::new(Decoupling::new(&jacobian, &NOMINAL))
 }
 
-/// Start values without trim, by the names of their parameters.
-fn start_outside(vehicle: &Vehicle, state: &State) -> Error {
-    let tightest = vehicle.aero.envelope.tightest(&vehicle.atmosphere, state);
-    let variable = match tightest.variable {
+/// Adds the offsets. Those of the sloshing masses are of their displacements: the slosh modes take what
+/// the flexible ones leave.
+fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
+    state[3] += offsets.alpha;
+    state[4] += offsets.q;
+    let slosh = &vehicle.airframe.slosh;
+    for (first, offset) in [(RIGID, &offsets.displacement), (RIGID + 1, &offsets.rate)] {
+        let mut modes = [0.0; MODES];
+        modes[..FLEXIBLE].copy_from_slice(&offset[..FLEXIBLE]);
+        let left: [f64; SLOSH] = std::array::from_fn(|tank| {
+            let flexible = slosh[tank].iter().zip(&modes);
+            offset[FLEXIBLE + tank] - flexible.map(|(per, eta)| per * eta).sum::<f64>()
+        });
+        if vehicle.modes == MODES && left != [0.0; SLOSH] {
+            let [a, b] = [0, 1].map(|tank| [slosh[tank][FLEXIBLE], slosh[tank][FLEXIBLE + 1]]);
+            let determinant = a[0] * b[1] - a[1] * b[0];
+            modes[FLEXIBLE] = (left[0] * b[1] - a[1] * left[1]) / determinant;
+            modes[FLEXIBLE + 1] = (a[0] * left[1] - left[0] * b[0]) / determinant;
+        }
+        for (i, eta) in modes.into_iter().enumerate().take(vehicle.modes) {
+            state[first + 2 * i] += eta;
+        }
+    }
+}
+
+/// A start where the model does not hold, by the names of the parameters that lead there.
+fn start_outside(vehicle: &Vehicle, start: &Trim, parameters: &Parameters) -> Error {
+    let Limited { variable, value, limits: [min, max] } =
+        vehicle.tightest(&start.state, &start.control, [0.0; GUSTS]);
+    let offsets = &parameters.offsets;
+    let name = match variable {
         "h" => "altitude0",
         "mach" => "mach0",
-        _ => "alpha0",
+        "alpha" if parameters.trim || offsets.alpha != 0.0 => "alpha_offset",
+        "alpha" => "alpha0",
+        "slosh1" if offsets.displacement[FLEXIBLE] != 0.0 => "slosh1_offset",
+        "slosh2" if offsets.displacement[FLEXIBLE + 1] != 0.0 => "slosh2_offset",
+        "slosh1" | "slosh2" => "fuel_fraction",
+        _ => "mach0",
     };
-    let [min, max] = tightest.limits;
-    let expected = format!("the curve fits hold in [{min:.6}, {max:.6}]");
-    Error::Value { variable: variable.into(), value: tightest.value, expected }
+    let given = match name {
+        "alpha_offset" => offsets.alpha,
+        "slosh1_offset" => offsets.displacement[FLEXIBLE],
+        "slosh2_offset" => offsets.displacement[FLEXIBLE + 1],
+        "fuel_fraction" => parameters.build.fuel_fraction,
+        "mach0" => parameters.build.condition.mach,
+        _ => value,
+    };
+    let expected = format!(
+        "it makes {variable} {value:.6} at the start; the model holds in [{min:.6}, {max:.6}]"
+    );
+    Error::Value { variable: name.into(), value: given, expected }
 }

@@ -1,7 +1,7 @@
 //! The vehicle as the integrator sees it.
 
 use super::{INPUTS, Inputs};
-use crate::dynamics::{Control, NOMINAL, STATES, State, Vehicle};
+use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle};
 use crate::integrate::System;
 
 /// A vehicle under the controls of one step.
@@ -11,13 +11,13 @@ pub(super) struct Steered<'a> {
     pub base: Control,
     pub inputs: &'a Inputs,
     /// Controls in effect and gust, if they do not move.
-    pub held: Option<(Control, f64)>,
+    pub held: Option<(Control, Gust)>,
 }
 
 impl Steered<'_> {
     /// Controls in effect and gust after a time (s) of the step.
     #[inline]
-    fn at(&self, t: f64) -> (Control, f64) {
+    fn at(&self, t: f64) -> (Control, Gust) {
         self.held.unwrap_or_else(|| in_effect(self.vehicle, &self.base, &self.inputs.at(t)))
     }
 }
@@ -27,7 +27,7 @@ pub(super) fn in_effect(
     vehicle: &Vehicle,
     base: &Control,
     inputs: &[f64; INPUTS],
-) -> (Control, f64) {
+) -> (Control, Gust) {
     let (control, gust) = Inputs::split(inputs);
     (vehicle.saturate([base[0] + control[0], base[1] + control[1]]), gust)
 }
@@ -38,8 +38,8 @@ impl System<STATES> for Steered<'_> {
         self.vehicle.derivatives(x, &control, gust)
     }
     fn holds(&self, t: f64, x: &State) -> bool {
-        let (_, gust) = self.at(t);
-        self.vehicle.holds(x, gust)
+        let (control, gust) = self.at(t);
+        self.vehicle.holds(x, &control, gust)
     }
     fn nominal(&self) -> &State {
         &NOMINAL

@@ -31,7 +31,7 @@ impl Flight {
             });
             let x = std::array::from_fn(|i| Dual { re: self.state[i], eps: [change[i]] });
             let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
-            let w = Dual { re: gust, eps: [gust_change] };
+            let w = std::array::from_fn(|i| Dual { re: gust[i], eps: [gust_change[i]] });
             let along = |dual: Dual<1>| dual.eps[0];
             let (derivatives, outputs) = vehicle.both(&x, &u, w);
             Sample {

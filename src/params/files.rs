@@ -140,6 +140,10 @@ pub struct Defaults {
     pub mach: Quantity,
     /// Altitude, m.
     pub altitude_m: Quantity,
+    /// Station of the inertial measurement unit, m from the nose.
+    pub imu_station_m: Quantity,
+    /// Station of the incidence vane, m from the nose.
+    pub probe_station_m: Quantity,
 }
 
 /// `earth.toml`.
@@ -238,6 +242,8 @@ pub struct Inertia {
     pub i_yy_kg_m2_per_m: Quantity,
     /// Damping ratio of the structure in each flexible mode.
     pub structural_damping: Quantity<[f64; FLEXIBLE]>,
+    /// Mass centre of the flexible configurations against that of beam and sloshing masses, m aft.
+    pub mass_centre_shift_m: Option<Quantity>,
 }
 
 /// A polynomial in incidence and elevator deflection; what is not given is zero.
@@ -272,4 +278,6 @@ pub struct EnvelopeData {
     pub mach: Quantity<[f64; 2]>,
     /// Altitude, m.
     pub altitude_m: Quantity<[f64; 2]>,
+    /// Least fuel ratio that is left to thermal choking of the burner.
+    pub choking_margin: Option<Quantity>,
 }

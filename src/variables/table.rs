@@ -16,6 +16,8 @@ const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 const ONE: Unit = unit("1", [0, 0, 0, 0]);
 const METRE: Unit = unit("m", [0, 1, 0, 0]);
+/// Slope per deflection: an angle over a length.
+const SLOPE: Unit = unit("rad/m", [0, -1, 0, 1]);
 const SPEED: Unit = unit("m/s", [0, 1, -1, 0]);
 const ACCELERATION: Unit = unit("m/s2", [0, 1, -2, 0]);
 const ANGLE: Unit = Unit { name: "rad", base: [0, 0, 0, 1], display: Some(("deg", DEGREES)) };
@@ -53,14 +55,18 @@ const Q: u32 = 1 << 4;
 const FUEL: u32 = 1 << 15;
 const DELTA_E: u32 = 1 << STATES;
 const PHI: u32 = 1 << (STATES + 1);
-const GUST: u32 = 1 << (STATES + 2);
+const W_GUST: u32 = 1 << (STATES + 2);
+const U_GUST: u32 = 1 << (STATES + 3);
+const GUST: u32 = W_GUST | U_GUST;
 const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
 const RATES: u32 = ETAS << 1;
 const ELASTIC: u32 = ETAS | RATES;
 /// Speed and incidence relative to moving air.
 const STREAM: u32 = V | GAMMA | ALPHA | GUST;
-/// What the aerodynamic forces depend on; on the fuel through the plume under the aft-body.
-const AERODYNAMIC: u32 = STREAM | H | ELASTIC | DELTA_E | PHI | FUEL;
+/// What the air at the engine's inlet depends on; on the pitch rate if its terms count.
+const INLET: u32 = STREAM | H | Q | ELASTIC | FUEL;
+/// What the aerodynamic forces depend on; on the fuel ratio through the plume under the aft-body.
+const AERODYNAMIC: u32 = INLET | DELTA_E | PHI;
 
 const ROW: Variable = Variable {
     name: "",
@@ -167,6 +173,10 @@ fn shown(flight: &Flight, read: impl FnOnce(&Sample) -> f64) -> f64 {
     flight.sample().map_or(0.0, read)
 }
 
+fn at_imu(flight: &Flight, row: usize, mode: usize) -> f64 {
+    flight.vehicle().map_or(0.0, |vehicle| vehicle.airframe.imu[row][mode])
+}
+
 fn omega(flight: &Flight, mode: usize) -> f64 {
     flight.vehicle().map_or(0.0, |vehicle| vehicle.omega[mode])
 }
@@ -202,7 +212,7 @@ const INPUT_MODE: Kind = Kind::Enumeration(
 
 /// All variables.
 #[rustfmt::skip]
-pub static TABLE: [Variable; 71] = [
+pub static TABLE: [Variable; 112] = [
     input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
     input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
@@ -218,7 +228,7 @@ pub static TABLE: [Variable; 71] = [
     output("slosh2", METRE, "Displacement of the sloshing mass in the aft tank, up positive", dependent(ETAS | FUEL), |f| shown(f, |s| s.outputs.slosh[1])),
     output("lift", FORCE_PER_WIDTH, "Lift per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.lift)),
     output("drag", FORCE_PER_WIDTH, "Drag per metre of width", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.drag)),
-    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(STREAM | H | ELASTIC | PHI | FUEL), |f| shown(f, |s| s.outputs.loads.thrust)),
+    output("thrust", FORCE_PER_WIDTH, "Thrust per metre of width", dependent(INLET | PHI), |f| shown(f, |s| s.outputs.loads.thrust)),
     output("moment", MOMENT_PER_WIDTH, "Pitching moment about the mass centre per metre of width, nose up positive", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.loads.moment)),
     output("mach", ONE, "Mach number", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.mach)),
     output("qbar", PRESSURE, "Dynamic pressure", dependent(V | GAMMA | H | GUST), |f| shown(f, |s| s.outputs.loads.qbar)),
@@ -258,22 +268,63 @@ pub static TABLE: [Variable; 71] = [
     derivative(0, "der(V)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 0)),
     derivative(1, "der(h)", SPEED, dependent(V | GAMMA), |f| rate(f, 1)),
     derivative(2, "der(gamma)", ANGULAR_RATE, dependent(AERODYNAMIC), |f| rate(f, 2)),
-    derivative(3, "der(alpha)", ANGULAR_RATE, Dependencies { constant: Q, ..dependent(AERODYNAMIC) }, |f| rate(f, 3)),
+    derivative(3, "der(alpha)", ANGULAR_RATE, dependent(AERODYNAMIC), |f| rate(f, 3)),
     derivative(4, "der(q)", ANGULAR_ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 4)),
     derivative(5, "der(eta1)", SPEED, fixed(1 << 6), |f| rate(f, 5)),
-    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 6)),
+    derivative(6, "der(eta1_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 6)),
     derivative(7, "der(eta2)", SPEED, fixed(1 << 8), |f| rate(f, 7)),
-    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 8)),
+    derivative(8, "der(eta2_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 8)),
     derivative(9, "der(eta3)", SPEED, fixed(1 << 10), |f| rate(f, 9)),
-    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 10)),
+    derivative(10, "der(eta3_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 10)),
     derivative(11, "der(eta_slosh1)", SPEED, fixed(1 << 12), |f| rate(f, 11)),
-    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 12)),
+    derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 12)),
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
-    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC | Q), |f| rate(f, 14)),
+    derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 14)),
     Variable { range: Some([-200.0, 200.0]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
     output_state(15, "fuel_mass", MASS_PER_WIDTH, "Fuel on board, without what cannot be drained, per metre of width", |f| f.state()[15]),
-    derivative(15, "der(fuel_mass)", MASS_FLOW_PER_WIDTH, dependent(STREAM | H | ELASTIC | PHI | FUEL), |f| rate(f, 15)),
+    derivative(15, "der(fuel_mass)", MASS_FLOW_PER_WIDTH, dependent(INLET | PHI), |f| rate(f, 15)),
     parameter("fuel_burn", Kind::Boolean, None, "Fuel burns in flight; false keeps fuel_mass, and with it mass and modes, as they are at the start", |f| f64::from(f.parameters().build.fuel_burn), |f, v| f.change(|p| p.build.fuel_burn = v != 0.0)),
+    parameter("imu_station", Kind::Real(METRE), Some([0.0, 1000.0]), "Station of the inertial measurement unit, aft of the nose; on the body", |f| f.parameters().build.stations.imu, |f, v| f.change(|p| p.build.stations.imu = v)),
+    parameter("probe_station", Kind::Real(METRE), Some([0.0, 1000.0]), "Station of the incidence vane, aft of the nose; on the body", |f| f.parameters().build.stations.probe, |f, v| f.change(|p| p.build.stations.probe = v)),
+    output("theta_imu", ANGLE, "Pitch attitude of the bent body at the IMU", Dependencies { constant: GAMMA | ALPHA, ..dependent(ETAS | FUEL) }, |f| shown(f, |s| s.outputs.imu.theta)),
+    output("q_imu", ANGULAR_RATE, "Pitch rate of the bent body at the IMU", Dependencies { constant: Q, ..dependent(RATES | FUEL) }, |f| shown(f, |s| s.outputs.imu.q)),
+    output("gamma_imu", ANGLE, "Flight-path angle of the IMU, which moves with the bent body", Dependencies { constant: GAMMA, ..dependent(V | ALPHA | Q | ELASTIC | FUEL) }, |f| shown(f, |s| s.outputs.imu.gamma)),
+    output("n_z_imu", ONE, "Load factor at the IMU across the bent axis, up positive, in g, with the accelerations of pitch and modes", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.imu.n_z)),
+    output("n_x_imu", ONE, "Load factor at the IMU along the bent axis, forward positive, in g, with the accelerations of pitch and modes", dependent(AERODYNAMIC), |f| shown(f, |s| s.outputs.imu.n_x)),
+    output("alpha_probe", ANGLE, "Incidence that a vane at the probe's station sees: bending, pitch rate and gust included", dependent(STREAM | Q | ELASTIC | FUEL), |f| shown(f, |s| s.outputs.alpha_probe)),
+    calculated("shape1_imu", ONE, "Displacement of the first flexible mode at the IMU per nose deflection", |f| at_imu(f, 0, 0)),
+    calculated("shape2_imu", ONE, "Displacement of the second flexible mode at the IMU per nose deflection", |f| at_imu(f, 0, 1)),
+    calculated("shape3_imu", ONE, "Displacement of the third flexible mode at the IMU per nose deflection", |f| at_imu(f, 0, 2)),
+    calculated("slope1_imu", SLOPE, "Slope of the first flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 0)),
+    calculated("slope2_imu", SLOPE, "Slope of the second flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 1)),
+    calculated("slope3_imu", SLOPE, "Slope of the third flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 2)),
+    parameter("mass_factor", Kind::Real(ONE), Some([0.5, 2.0]), "Uncertainty: factor on the density of structure and propellant; the pitch inertia stays", |f| f.parameters().build.factors.mass, |f, v| f.change(|p| p.build.factors.mass = v)),
+    parameter("inertia_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the pitch inertia", |f| f.parameters().build.factors.inertia, |f, v| f.change(|p| p.build.factors.inertia = v)),
+    parameter("density_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the density of the air", |f| f.parameters().build.factors.density, |f, v| f.change(|p| p.build.factors.density = v)),
+    parameter("lift_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the lift without the elevator", |f| f.parameters().build.factors.lift, |f, v| f.change(|p| p.build.factors.lift = v)),
+    parameter("drag_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the drag without the elevator", |f| f.parameters().build.factors.drag, |f, v| f.change(|p| p.build.factors.drag = v)),
+    parameter("moment_alpha_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the pitching moment due to incidence", |f| f.parameters().build.factors.moment_alpha, |f, v| f.change(|p| p.build.factors.moment_alpha = v)),
+    parameter("elevator_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the lift, drag and moment due to the elevator", |f| f.parameters().build.factors.elevator, |f, v| f.change(|p| p.build.factors.elevator = v)),
+    parameter("thrust_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the thrust", |f| f.parameters().build.factors.thrust, |f, v| f.change(|p| p.build.factors.thrust = v)),
+    parameter("elastic_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on what the air answers to bending", |f| f.parameters().build.factors.elastic, |f, v| f.change(|p| p.build.factors.elastic = v)),
+    parameter("stiffness_factor", Kind::Real(ONE), Some([0.1, 1000.0]), "Uncertainty: factor on the bending stiffness of the beam", |f| f.parameters().build.factors.stiffness, |f, v| f.change(|p| p.build.factors.stiffness = v)),
+    parameter("structural_damping_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the damping ratios of the structure", |f| f.parameters().build.factors.structural_damping, |f, v| f.change(|p| p.build.factors.structural_damping = v)),
+    parameter("mass_centre_shift", Kind::Real(METRE), Some([-3.0, 3.0]), "Uncertainty: added to the station of the mass centre, aft positive", |f| f.parameters().build.factors.mass_centre_shift_m, |f, v| f.change(|p| p.build.factors.mass_centre_shift_m = v)),
+    parameter("pitch_rate_factor", Kind::Real(ONE), Some([0.0, 10.0]), "Part of the strip theory's terms in the pitch rate that counts: 0 as printed in eq. (4), 1 all", |f| f.parameters().build.factors.pitch_rate, |f, v| f.change(|p| p.build.factors.pitch_rate = v)),
+    parameter("alpha_offset", Kind::Real(ANGLE), Some([-1.5, 1.5]), "Added to the initial angle of attack", |f| f.parameters().offsets.alpha, |f, v| f.change(|p| p.offsets.alpha = v)),
+    parameter("q_offset", Kind::Real(ANGULAR_RATE), Some([-10.0, 10.0]), "Added to the initial pitch rate", |f| f.parameters().offsets.q, |f, v| f.change(|p| p.offsets.q = v)),
+    parameter("eta1_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial eta1", |f| f.parameters().offsets.displacement[0], |f, v| f.change(|p| p.offsets.displacement[0] = v)),
+    parameter("eta2_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial eta2", |f| f.parameters().offsets.displacement[1], |f, v| f.change(|p| p.offsets.displacement[1] = v)),
+    parameter("eta3_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial eta3", |f| f.parameters().offsets.displacement[2], |f, v| f.change(|p| p.offsets.displacement[2] = v)),
+    parameter("eta1_dot_offset", Kind::Real(SPEED), Some([-500.0, 500.0]), "Added to the initial rate of eta1", |f| f.parameters().offsets.rate[0], |f, v| f.change(|p| p.offsets.rate[0] = v)),
+    parameter("eta2_dot_offset", Kind::Real(SPEED), Some([-500.0, 500.0]), "Added to the initial rate of eta2", |f| f.parameters().offsets.rate[1], |f, v| f.change(|p| p.offsets.rate[1] = v)),
+    parameter("eta3_dot_offset", Kind::Real(SPEED), Some([-500.0, 500.0]), "Added to the initial rate of eta3", |f| f.parameters().offsets.rate[2], |f, v| f.change(|p| p.offsets.rate[2] = v)),
+    parameter("slosh1_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial slosh1; the flexible modes stay", |f| f.parameters().offsets.displacement[3], |f, v| f.change(|p| p.offsets.displacement[3] = v)),
+    parameter("slosh2_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial slosh2; the flexible modes stay", |f| f.parameters().offsets.displacement[4], |f, v| f.change(|p| p.offsets.displacement[4] = v)),
+    parameter("slosh1_dot_offset", Kind::Real(SPEED), Some([-50.0, 50.0]), "Added to the initial rate of slosh1; the flexible modes stay", |f| f.parameters().offsets.rate[3], |f, v| f.change(|p| p.offsets.rate[3] = v)),
+    parameter("slosh2_dot_offset", Kind::Real(SPEED), Some([-50.0, 50.0]), "Added to the initial rate of slosh2; the flexible modes stay", |f| f.parameters().offsets.rate[4], |f, v| f.change(|p| p.offsets.rate[4] = v)),
+    Variable { range: Some([-200.0, 200.0]), ..input(3, "u_gust", SPEED, "Horizontal velocity of the air along the flight direction, tail wind positive; the same along the vehicle", |f| f.inputs().values[3], |f, v| f.set_input(3, v)) },
+    output("choking_margin", ONE, "Fuel equivalence ratio that can still be added before the burner chokes; below 0 the thrust is not to be believed", dependent(INLET | PHI), |f| shown(f, |s| s.outputs.choking_margin)),
 ];
 
 fn rate(flight: &Flight, state: usize) -> f64 {

@@ -3,11 +3,12 @@
 use super::cells::{COLUMNS, Cell, cells, values};
 use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin};
+use ahv::assembly::Chosen;
 use ahv::dynamics::Vehicle;
 use ahv::parameters::Parameters;
 use ahv::params::AeroData;
 use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Body, Build, Data};
+use ahv::vehicle::{Build, Data};
 use anyhow::{Context, Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 
@@ -30,7 +31,7 @@ pub struct Model {
     pub cells: Vec<Cell>,
     pub origin: Origin,
     data: Data,
-    columns: Vec<(Build, Body)>,
+    columns: Vec<Build>,
 }
 
 /// One point of the trade-off.
@@ -75,20 +76,14 @@ impl Model {
     pub fn new() -> Result<Self> {
         let data = Data::embedded()?;
         let default = Parameters::new(&data).build;
-        let columns = COLUMNS
-            .into_iter()
-            .map(|configuration| {
-                let build = Build { configuration, ..default };
-                // The modes do not depend on the coefficients: solved once.
-                Body::new(&data, &build).map(|body| (build, body))
-            })
-            .collect::<Result<_, _>>()?;
+        let columns = COLUMNS.map(|configuration| Build { configuration, ..default }).to_vec();
         Ok(Self { cells: cells()?, origin: Origin::new()?, data, columns })
     }
 
     fn trimmed(&self, set: &AeroData) -> Option<Vec<(Vehicle, Trim)>> {
-        let one = |(build, body): &(Build, Body)| {
-            let vehicle = unlimited(Vehicle::with_body(&self.data, build, body, set));
+        let one = |build: &Build| {
+            let chosen = Chosen::with_set(&self.data, build, set);
+            let vehicle = unlimited(Vehicle::chosen(&chosen).ok()?);
             let trim = trim(&vehicle, &build.condition).ok()?;
             Some((vehicle, trim))
         };

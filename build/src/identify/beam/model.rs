@@ -5,13 +5,14 @@ use super::numbers::{CENTRES, COORDINATES, Prior, rounded};
 use crate::identify::cells::{short_period, size};
 use crate::identify::fit::{End, Fit, minimise};
 use crate::published::Published;
+use ahv::assembly::Chosen;
 use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
 use ahv::modes::FLEXIBLE;
 use ahv::parameters::Parameters;
-use ahv::params::VehicleData;
+use ahv::params::{AeroData, VehicleData};
 use ahv::trim::trim;
-use ahv::vehicle::{AeroSet, Body, Build, Configuration, Data};
+use ahv::vehicle::{Build, Configuration, Data};
 use anyhow::{Context, Result};
 use nalgebra::DVector;
 
@@ -48,6 +49,7 @@ pub struct Model {
     pub wanted: [f64; DATA],
     data: Data,
     build: Build,
+    set: AeroData,
 }
 
 /// What came out.
@@ -59,9 +61,11 @@ pub struct Solution {
 
 impl Model {
     pub fn new(data: Data, wanted: [f64; DATA]) -> Result<Self> {
-        let build = Build { aero: AeroSet::Parker2007, ..Parameters::new(&data).build };
+        let build = Parameters::new(&data).build;
         let prior = Prior::new(&data.vehicle, wanted[0])?;
-        Ok(Self { prior, wanted, data, build })
+        // The published coefficients, on the body that they were identified for.
+        let set = AeroData { inertia: data.xu2015.inertia.clone(), ..data.parker2007.clone() };
+        Ok(Self { prior, wanted, data, build, set })
     }
 
     /// Flexible frequencies of a configuration, rad/s, and the size of its short period with the
@@ -69,8 +73,7 @@ impl Model {
     fn column(&self, vehicle: &VehicleData, configuration: Configuration) -> Option<[f64; 4]> {
         let data = Data { vehicle: vehicle.clone(), ..self.data.clone() };
         let build = Build { configuration, ..self.build };
-        let body = Body::new(&data, &build).ok()?;
-        let vehicle = Vehicle::with_body(&data, &build, &body, data.aero(build.aero));
+        let vehicle = Vehicle::chosen(&Chosen::with_set(&data, &build, &self.set)).ok()?;
         let trim = trim(&vehicle, &build.condition).ok()?;
         let linear = Linear::new(&vehicle, &trim.state, &trim.control);
         let [a, b, c, ..] = vehicle.omega;

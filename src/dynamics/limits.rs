@@ -1,0 +1,69 @@
+//! Where the model holds.
+
+use super::stream::Stream;
+use super::{Airframe, Control, FUEL, Gust, State, Vehicle};
+use crate::envelope::{Limited, tightest};
+use crate::modes::SLOSH;
+
+/// Outputs that show the displacement of the liquid in the fore and aft tank.
+const SLOSH_NAMES: [&str; SLOSH] = ["slosh1", "slosh2"];
+
+impl Vehicle {
+    /// The state as moving air meets it: speed through the air for V, incidence to it for alpha. Still
+    /// air leaves it bit for bit as it is.
+    pub fn as_met(x: &State, gust: Gust) -> State {
+        let Stream { speed, incidence, .. } = Stream::new(x, gust);
+        let mut met = *x;
+        (met[0], met[3]) = (speed, incidence);
+        met
+    }
+
+    /// Calls `f` with the airframe at a state.
+    fn at_level<T>(&self, x: &State, f: impl FnOnce(&Airframe) -> T) -> T {
+        match &self.burn {
+            None => f(&self.airframe),
+            Some(burn) => f(&burn.airframe(x[FUEL])),
+        }
+    }
+
+    /// How far the liquid in each tank is from where it would leave its depth.
+    fn sloshing(&self, x: &State) -> [Limited; SLOSH] {
+        self.at_level(x, |airframe| {
+            let moved = airframe.sloshing(x);
+            std::array::from_fn(|tank| Limited {
+                variable: SLOSH_NAMES[tank],
+                value: moved[tank],
+                limits: [-airframe.depth[tank], airframe.depth[tank]],
+            })
+        })
+    }
+
+    /// How far the burner is from thermal choking, if the fits end there.
+    fn choking(&self, x: &State, u: &Control, gust: Gust) -> Option<Limited> {
+        let least = self.aero.envelope.choking_margin?;
+        let value = self.at_level(x, |airframe| {
+            let met = self.met(airframe, x, u, gust);
+            self.choking_margin(&met, u)
+        });
+        Some(Limited { variable: "choking_margin", value, limits: [least, 1.0] })
+    }
+
+    /// Whether the model holds at a state: within the ranges of the curve fits, with the liquid inside
+    /// its depth, and with fuel if it burns.
+    pub fn holds(&self, x: &State, u: &Control, gust: Gust) -> bool {
+        let met = Self::as_met(x, gust);
+        self.aero.envelope.holds(&self.atmosphere, &met)
+            && !self.out_of_fuel(x)
+            && (self.modes <= crate::modes::FLEXIBLE
+                || self.sloshing(x).iter().all(|limited| limited.margin() >= 0.0))
+            && self.choking(x, u, gust).is_none_or(|limited| limited.margin() >= 0.0)
+    }
+
+    /// The quantity that is outside its limits or, inside all, next to them.
+    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
+        let met = Self::as_met(x, gust);
+        let sloshing = (self.modes > crate::modes::FLEXIBLE).then(|| self.sloshing(x));
+        let others = sloshing.into_iter().flatten().chain(self.choking(x, u, gust));
+        tightest(self.aero.envelope.tightest(&self.atmosphere, &met), others)
+    }
+}

@@ -1,0 +1,129 @@
+//! What sensors on the bent body see.
+//!
+//! The mean axes of eq. (3) move with the mass centre; a sensor moves with a point of the body: by the
+//! pitch rate at its distance from the mass centre, and by deflection and slope of the modes. Relative
+//! motion in rotating axes: Etkin, Dynamics of Atmospheric Flight, 1972, section 5.1.
+
+use super::{Airframe, Met, RIGID, State};
+use crate::aero::PerMode;
+use crate::error::Error;
+use crate::modes::MODES;
+use crate::scalar::{Over, Scalar};
+
+/// Where the sensors sit, m from the nose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stations {
+    /// Inertial measurement unit.
+    pub imu: f64,
+    /// Incidence vane.
+    pub probe: f64,
+}
+
+impl Stations {
+    /// Whether both are on a body of this length, m.
+    ///
+    /// # Errors
+    /// [`Error::Value`] with the station that is not.
+    pub fn check(&self, length_m: f64) -> Result<(), Error> {
+        for (variable, value) in [("imu_station", self.imu), ("probe_station", self.probe)] {
+            if !(0.0..=length_m).contains(&value) {
+                let expected = format!("a sensor sits on the body, from 0 to {length_m} m");
+                return Err(Error::Value { variable: variable.into(), value, expected });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Motion of a point of the body against the mean axes, up positive.
+struct Motion<S> {
+    /// Deflection, m, and its rates.
+    w: S,
+    w_dot: S,
+    w_dot_dot: S,
+    /// Slope, nose-down positive, rad, and its rate.
+    slope: S,
+    slope_dot: S,
+}
+
+/// What an inertial measurement unit shows.
+#[derive(Debug, Clone, Copy)]
+pub struct Imu<S = f64> {
+    /// Pitch attitude, rad.
+    pub theta: S,
+    /// Pitch rate, rad/s.
+    pub q: S,
+    /// Flight-path angle of its place, rad.
+    pub gamma: S,
+    /// Load factor across the bent axis, up positive, g.
+    pub n_z: S,
+    /// Load factor along the bent axis, forward positive, g.
+    pub n_x: S,
+}
+
+fn motion<C: Copy, S: Scalar + Over<C>>(
+    [deflection, slope]: &[PerMode<C>; 2],
+    x: &State<S>,
+    rates: &State<S>,
+) -> Motion<S> {
+    let sum = |shape: &PerMode<C>, of: &State<S>, first: usize| {
+        let modes = 0..MODES;
+        modes.fold(S::constant(0.0), |sum, i| sum + of[first + 2 * i] * shape[i])
+    };
+    Motion {
+        w: sum(deflection, x, RIGID),
+        w_dot: sum(deflection, x, RIGID + 1),
+        w_dot_dot: sum(deflection, rates, RIGID + 1),
+        slope: sum(slope, x, RIGID),
+        slope_dot: sum(slope, x, RIGID + 1),
+    }
+}
+
+/// What an IMU at `station`, m from the nose, shows; one g is `standard`, m/s^2.
+pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
+    airframe: &Airframe<C>,
+    met: &Met<S>,
+    x: &State<S>,
+    rates: &State<S>,
+    station: f64,
+    standard: f64,
+) -> Imu<S> {
+    let point = motion(&airframe.imu, x, rates);
+    let forward = S::of(airframe.mass_centre - station);
+    let (q, theta) = (x[4], x[2] + x[3]);
+    let (sin_alpha, cos_alpha) = met.stream.body;
+    let ahead = x[0] * cos_alpha - q * point.w;
+    let up = q * forward + point.w_dot - x[0] * sin_alpha;
+
+    let per_weight = C::constant(1.0) / (airframe.mass * standard);
+    let along = (met.loads.thrust - met.loads.axial) * per_weight;
+    let across = met.loads.normal * per_weight;
+    let in_g = 1.0 / standard;
+    let q_dot = rates[4];
+    let along = along - (q * q * forward + q_dot * point.w + q * point.w_dot * 2.0) * in_g;
+    let across = across + (q_dot * forward - q * q * point.w + point.w_dot_dot) * in_g;
+    let (sin, cos) = point.slope.sin_cos();
+    Imu {
+        theta: theta - point.slope,
+        q: q - point.slope_dot,
+        gamma: theta + (up / ahead).atan(),
+        n_z: across * cos + along * sin,
+        n_x: along * cos - across * sin,
+    }
+}
+
+/// Incidence that a vane at `station`, m from the nose, shows, rad.
+pub(super) fn vane<C: Scalar, S: Scalar + Over<C>>(
+    airframe: &Airframe<C>,
+    met: &Met<S>,
+    x: &State<S>,
+    rates: &State<S>,
+    station: f64,
+) -> S {
+    let point = motion(&airframe.probe, x, rates);
+    let forward = S::of(airframe.mass_centre - station);
+    let (sin, cos) = met.stream.axis;
+    let ahead = met.stream.speed * cos - x[4] * point.w;
+    let down = met.stream.speed * sin - x[4] * forward - point.w_dot;
+    (down / ahead).atan() - point.slope
+}
