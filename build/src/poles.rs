@@ -8,6 +8,7 @@ use ahv::linear::Linear;
 use ahv::modes::FLEXIBLE;
 use ahv::variables::{Kind, find};
 use anyhow::Result;
+use nalgebra::Complex;
 use serde_json::{Value, json};
 use std::f64::consts::LN_2;
 
@@ -35,8 +36,12 @@ impl Root {
 struct Linearised {
     configuration: String,
     poles: Vec<(String, Root)>,
-    zeros: Vec<Root>,
+    /// To V and the flight-path angle of [`ANGLES`].
+    zeros: [Vec<Root>; 2],
 }
+
+/// Flight-path angles whose zeros are shown: of the mass centre, and of the IMU.
+const ANGLES: [&str; 2] = ["gamma", "gamma_imu"];
 
 pub fn run(options: &Poles) -> Result<()> {
     let all = if options.all { linearise_all(options)? } else { vec![linearise(options, None)?] };
@@ -64,15 +69,17 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     set.settings.extend(configured.map(|name| format!("configuration={name}")));
     let flight = flight(&model()?, &set)?;
     let (vehicle, trim) = ready(&flight)?;
-    let linear = Linear::new(vehicle, &trim.state, &trim.control);
-    let poles = linear.poles().into_iter().map(|pole| Root { re: pole.re, im: pole.im });
-    let zeros = linear.zeros().into_iter().map(|zero| Root { re: zero.re, im: zero.im });
-    // Of a pair the upper half stands for both.
-    let upper = |root: &Root| root.im >= 0.0;
+    let linear =
+        [Linear::new, Linear::sensed].map(|linear| linear(vehicle, &trim.state, &trim.control));
+    let roots = |values: Vec<Complex<f64>>| -> Vec<Root> {
+        // Of a pair the upper half stands for both.
+        let upper = values.into_iter().filter(|root| root.im >= 0.0);
+        upper.map(|root| Root { re: root.re, im: root.im }).collect()
+    };
     Ok(Linearised {
         configuration: configuration(&flight),
-        poles: named(poles.filter(upper).collect(), &vehicle.omega[..vehicle.modes]),
-        zeros: zeros.filter(upper).collect(),
+        poles: named(roots(linear[0].poles()), &vehicle.omega[..vehicle.modes]),
+        zeros: linear.map(|linear| roots(linear.zeros())),
     })
 }
 
@@ -136,12 +143,14 @@ fn print_one(linearised: &Linearised) {
         ]);
     }
     print!("{}", table(&rows));
-    println!("\nTransmission zeros from delta_e, phi to V, gamma, rad/s");
-    let mut rows = vec![row(["", "zero", "frequency"])];
-    for (index, root) in linearised.zeros.iter().enumerate() {
-        rows.push(vec![(index + 1).to_string(), root.text(), number(root.frequency())]);
+    for (angle, zeros) in ANGLES.into_iter().zip(&linearised.zeros) {
+        println!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s");
+        let mut rows = vec![row(["", "zero", "frequency"])];
+        for (index, root) in zeros.iter().enumerate() {
+            rows.push(vec![(index + 1).to_string(), root.text(), number(root.frequency())]);
+        }
+        print!("{}", table(&rows));
     }
-    print!("{}", table(&rows));
 }
 
 fn print_side_by_side(all: &[Linearised]) {
@@ -173,14 +182,20 @@ fn print_side_by_side(all: &[Linearised]) {
         rows.push(std::iter::once(name.to_string()).chain(all.iter().map(cell)).collect());
     }
     print!("{}", table(&rows));
-    println!("\nTransmission zeros from delta_e, phi to V, gamma, rad/s");
-    let mut rows = vec![head("")];
-    let count = all.iter().map(|one| one.zeros.len()).max().unwrap_or(0);
-    for index in 0..count {
-        let cell = |one: &Linearised| one.zeros.get(index).map_or(String::new(), |z| z.text());
-        rows.push(std::iter::once((index + 1).to_string()).chain(all.iter().map(cell)).collect());
+    for (output, angle) in ANGLES.into_iter().enumerate() {
+        println!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s");
+        let mut rows = vec![head("")];
+        let count = all.iter().map(|one| one.zeros[output].len()).max().unwrap_or(0);
+        for index in 0..count {
+            let cell = |one: &Linearised| {
+                one.zeros[output].get(index).map_or(String::new(), |zero| zero.text())
+            };
+            rows.push(
+                std::iter::once((index + 1).to_string()).chain(all.iter().map(cell)).collect(),
+            );
+        }
+        print!("{}", table(&rows));
     }
-    print!("{}", table(&rows));
 }
 
 fn as_json(linearised: &Linearised) -> Value {
@@ -190,7 +205,8 @@ fn as_json(linearised: &Linearised) -> Value {
         "configuration": linearised.configuration,
         "unit": "rad/s",
         "poles": linearised.poles.iter().map(pole).collect::<Vec<_>>(),
-        "zeros": linearised.zeros.iter().map(root).collect::<Vec<_>>(),
+        "zeros": linearised.zeros[0].iter().map(root).collect::<Vec<_>>(),
+        "zeros_imu": linearised.zeros[1].iter().map(root).collect::<Vec<_>>(),
     })
 }
 

@@ -36,6 +36,7 @@ pub fn uniform(elements: usize, length: f64, stiffness: f64, density: f64) -> Be
         element_m: length / elements as f64,
         stiffness: vec![stiffness; elements],
         density: vec![density; elements],
+        moments: Default::default(),
     }
 }
 
