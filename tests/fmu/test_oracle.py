@@ -57,37 +57,35 @@ def test_verif_uniform_beam_has_the_analytic_modes() -> None:
 
 @pytest.mark.parametrize("aero_set", AERO_SETS)
 @pytest.mark.parametrize("configuration", [RIGID, SLOSH_BEAM])
-def test_verif_rigid_motion_as_a_mode_gives_the_rigid_derivatives(
+def test_verif_rigid_motion_as_a_mode_is_incidence_of_the_body(
     vehicle: Callable[..., Vehicle], configuration: int, aero_set: str
 ) -> None:
-    """Rotation and heave in place of modes: the elastic terms are the rigid derivatives.
+    """Rotation and heave in place of modes bend nothing: they are the body's incidence.
 
-    A mode that is the rotation w = x - x_cg changes the incidence by -1 everywhere, so that C_L,
-    C_D and C_M change by minus their alpha-slope; the load on the heave mode is the lift, and that
-    on the rotation is minus the moment. The elastic scale multiplies all but the loads. Loads are
-    compared where the derivatives are taken: there the places of elevator and plume are exact.
+    The load on the heave mode is the lift, and that on the rotation is minus the moment, also of
+    what pitching adds. Loads are compared where the derivatives are taken: there the places of
+    elevator and plume are exact.
     """
     oracle = vehicle(configuration, aero=aero_set)
-    nodes, aero = oracle.beam.nodes, oracle.aero
+    nodes, aero, x_cg = oracle.beam.nodes, oracle.aero, oracle.x_cg
     one = np.ones_like(nodes)
-    w, turn = np.stack([nodes - oracle.x_cg, one], 1), np.stack([one, 0.0 * one], 1)
+    w, turn = np.stack([nodes - x_cg, one], 1), np.stack([one, 0.0 * one], 1)
     fake = Modes(np.ones(2), np.ones(2), w, turn, np.zeros((0, 2)))
-    terms = Elastic(oracle.data["geometry"], aero, oracle.beam, fake)
+    terms = Elastic(oracle.data["geometry"], aero, oracle.beam, fake, x_cg, pitch_rate=1.0)
+    np.testing.assert_allclose(terms.pitch, [1.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(terms.heave, [0.0, 1.0], atol=1e-12)
+    for name in ("cl", "cd", "cm", "ct", "n"):
+        for kind in ("eta", "rate"):
+            assert np.abs(getattr(terms, f"{name}_{kind}")).max() < 1e-11
     reference = aero["reference"]
     at = (reference["elastic_alpha_rad"], reference.get("elastic_delta_e_rad", 0.0))
-    scale = reference["elastic_scale"]
-    lift, drag, moment = (scale * slope(aero[key], *at) for key in ("lift", "drag", "moment"))
-    assert terms.cl_eta[0] == pytest.approx(-lift, rel=1e-12)
-    assert terms.cl_rate[1] == pytest.approx(-lift, rel=1e-12)
-    assert terms.cd_eta[0] == pytest.approx(-drag, rel=1e-12)
-    assert terms.cm_eta[0] == pytest.approx(-moment, rel=1e-12)
-    assert terms.ct_eta[0] == pytest.approx(-scale, rel=1e-12)
-    shift, chord, alpha = oracle.x_cg - reference["moment_centre_m"], reference["chord_m"], 0.02
+    shift, chord, alpha = x_cg - reference["moment_centre_m"], reference["chord_m"], 0.02
     body = terms.n_0 + terms.n_alpha * alpha + terms.n_alpha2 * alpha**2
     elevator = terms.n_elevator * slope(aero["lift"], *at, "delta_e")
     loads = [
         (body, *(poly(aero[key], alpha) for key in ("lift", "moment"))),
         (elevator, *(slope(aero[key], *at, "delta_e") for key in ("lift", "moment"))),
+        (terms.n_q, terms.cl_q, terms.cm_q),
     ]
     if "lift_phi" in aero:
         c_l, c_m = (poly(aero[key], at[0]) for key in ("lift_phi", "moment_phi"))
@@ -95,13 +93,19 @@ def test_verif_rigid_motion_as_a_mode_gives_the_rigid_derivatives(
     for modal, c_l, c_m in loads:
         assert modal[1] == pytest.approx(c_l, rel=1e-12)
         assert modal[0] == pytest.approx(-(chord * c_m + shift * c_l), rel=1e-12)
+    # Pitching lets each strip see the incidence of its middle.
+    first, joint, length = 0.0, oracle.data["geometry"]["fore_body_m"], nodes[-1]
+    middles = np.array([(first + joint) / 2.0, (joint + length) / 2.0, terms.x_e]) - x_cg
+    slopes = [*terms.strip_slope, slope(aero["lift"], *at, "delta_e")]
+    assert terms.cl_q == pytest.approx(slopes @ middles, rel=1e-12)
+    assert terms.ct_q == pytest.approx(middles[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("configuration", [RIGID, EVEN_MASS_BEAM, SLOSH_BEAM])
 def test_verif_poles_and_zeros_equal_python_control(
     vehicle: Callable[..., Vehicle], configuration: int
 ) -> None:
-    """Poles, and the zeros from (delta_e, phi) to (V, gamma), by other software."""
+    """Poles, and the zeros from (delta_e, phi) to V and gamma, here and at the IMU."""
     oracle = vehicle(configuration)
     model = oracle.linearise()
     system = control.ss(model.a, model.b, model.c, model.d)
@@ -111,6 +115,10 @@ def test_verif_poles_and_zeros_equal_python_control(
     assert far(oracle.poles(), poles) < 1e-7
     assert len(oracle.zeros()) == oracle.states - 2
     assert far(oracle.zeros(), zeros) < 1e-4
+    model = oracle.linearise(outputs=("V", "gamma_imu"))
+    assert len(model.c) == 2 and not model.d.any()
+    zeros = control.zeros(control.ss(model.a, model.b, model.c, model.d))
+    assert far(oracle.zeros("gamma_imu"), zeros) < 1e-4
 
 
 @pytest.mark.parametrize("configuration", [EVEN_MASS_BEAM, SLOSH_BEAM])

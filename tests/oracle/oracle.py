@@ -8,31 +8,22 @@ of the flexible modes 1 to 3 and of the slosh modes 1 and 2: 5, 11 or 15 states.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.linalg import eig, matrix_balance
 from scipy.optimize import root
 
 from oracle_aero import TINY, Elastic, atmosphere, gravity, poly
+from oracle_factors import applied, chosen
+from oracle_linear import Linear, in_order, invariant_zeros, linear
+from oracle_sensors import readings
 from oracle_structure import EVEN_MASS_BEAM, RIGID, SLOSH_BEAM, Beam, Modes, load
+from oracle_tanks import modal_damping, modal_floor
 
 DATA_DIR = Path(__file__).resolve().parents[2] / "src" / "data"
-NAMES = ("rigid", "even mass beam", "slosh beam")
-FINITE_ZERO = 1e4  # rad/s: generalised eigenvalues beyond are the infinite ones
-
-
-@dataclass(frozen=True)
-class Linear:
-    """x' = A x + B u, y = C x + D u about a trim; u = (delta_e rad, phi), y = (V, gamma)."""
-
-    a: np.ndarray
-    b: np.ndarray
-    c: np.ndarray
-    d: np.ndarray
+FLEXIBLE = 3  # modes with names of their own; slosh modes follow
 
 
 class Vehicle:
@@ -40,10 +31,12 @@ class Vehicle:
 
     slosh_damping is a ratio, slosh_frequency is in rad/s (0: from the tank), altitude0 in m,
     gamma0 in rad; None takes the default of the data. `elements` overrides the data's beam mesh,
-    `aero` names the coefficient set.
+    `aero` names the coefficient set, the stations are in m. `more`: factors, mass_centre_shift,
+    pitch_rate_factor and offsets of the start by the FMU's names.
     Attributes: mass kg/m, x_cg m, i_yy kg m^2/m, omega rad/s, modal_mass kg/m, damping matrix D
-    1/s, rel [tank, mode], floor m/s^2 (the floors of the tanks on each mode),
-    modes (shapes at the nodes), beam, elastic (the terms of eq. (4)).
+    1/s, rel [tank, mode], floor m/s^2 (the floors of the tanks on each mode), imu and probe
+    ([0] shape, [1] slope 1/m of each mode), modes (shapes at the nodes), beam, elastic (the terms
+    of eq. (4)), and data, earth, aero with the factors in them.
     """
 
     def __init__(
@@ -58,10 +51,15 @@ class Vehicle:
         data_dir: Path | str = DATA_DIR,
         elements: int | None = None,
         aero: str = "xu2015",
+        *,
+        imu_station: float = 16.764,
+        probe_station: float = 0.0,
+        **more: float,
     ) -> None:
-        folder = Path(data_dir)
-        self.data, self.earth = load(folder / "vehicle.toml"), load(folder / "earth.toml")
-        self.aero = load(folder / "aero" / f"{aero}.toml")
+        folder, (factors, self.offsets) = Path(data_dir), chosen(more)
+        files = ("vehicle.toml", "earth.toml", f"aero/{aero}.toml")
+        tables = [load(folder / name) for name in files]
+        self.data, self.earth, self.aero = applied(*tables, factors)
         default = self.data["default"]
         self.configuration, self.gamma0 = configuration, gamma0
         self.mach0 = default["mach"] if mach0 is None else mach0
@@ -76,9 +74,12 @@ class Vehicle:
             return Beam(self.data, configuration, fuel, z, slosh_frequency, self.g_eff, elements)
 
         self.beam, full = beam(fuel_fraction), beam(1.0)
-        self.mass, self.x_cg = self.beam.mass, self.beam.x_cg
         inertia = self.aero["inertia"]
+        self.mass, self.x_cg = self.beam.mass, self.beam.x_own + factors["mass_centre_shift"]
+        if configuration != RIGID:
+            self.x_cg += inertia.get("mass_centre_shift_m", 0.0)
         self.i_yy = inertia["i_yy_kg_m2_per_m"] * self.beam.inertia / full.inertia
+        self.beam.prescribe(self.x_cg, self.i_yy)
         count = {RIGID: 0, EVEN_MASS_BEAM: 3, SLOSH_BEAM: 5}[configuration]
         self.modes_count, self.states = count, 5 + 2 * count
         nodes, none = len(self.beam.nodes), np.zeros(0)
@@ -89,45 +90,46 @@ class Vehicle:
         self.omega, self.modal_mass = self.modes.omega, self.modes.mass
         self.rel = np.zeros((2, count))
         self.rel[: len(self.beam.tanks)] = self.modes.rel
-        self.damping = self._damping(inertia["structural_damping"])
-        self.elastic = Elastic(self.data["geometry"], self.aero, self.beam, self.modes)
-        self.floor = self._floor()
+        self.damping = modal_damping(self.beam.tanks, self.modes, inertia["structural_damping"])
+        pitch_rate = factors["pitch_rate_factor"]
+        self.elastic = Elastic(
+            self.data["geometry"], self.aero, self.beam, self.modes, self.x_cg, pitch_rate
+        )
+        self.floor = modal_floor(self.beam.tanks, self.modes, self.g_eff)
+        self.imu_station, self.probe_station = imu_station, probe_station
+        at = self.beam.shapes(self.modes, np.array([imu_station, probe_station]))
+        self.imu, self.probe = np.swapaxes(at, 0, 1)
         self._trim: tuple[np.ndarray, np.ndarray] | None = None
-
-    def _damping(self, structural: Sequence[float]) -> np.ndarray:
-        """Modal damping matrix D in 1/s: tank dampers, and the structure by its strain energy."""
-        tanks, mass, omega = self.beam.tanks, self.modal_mass, self.omega
-        rel = self.rel[: len(tanks)]
-        c, k = np.array([t.damping for t in tanks]), np.array([t.stiffness for t in tanks])
-        in_beam = 1.0 - k @ rel**2 / (omega**2 * mass)
-        tank_part = (rel.T * c) @ rel / mass[:, None]
-        # Flexible modes have ratios of their own; slosh modes take that of the first.
-        ratio = np.concatenate([structural, [structural[0]] * 2])[: len(omega)]
-        return tank_part + np.diag(2.0 * ratio * omega * in_beam)
-
-    def _floor(self) -> np.ndarray:
-        """Modal acceleration in m/s^2 of the floors of the tanks, which carry the liquid at rest.
-
-        The weight m1_j g_eff of a sloshing mass rests on the floor, not on the spring: a constant
-        force upwards on the mass and downwards on the node of its tank. Its power in mode i is
-        m1_j g_eff rel[j, i] eta_i'. The pair adds up to nothing on the rigid body.
-        """
-        weight = np.array([tank.slosh_mass * self.g_eff for tank in self.beam.tanks])
-        return weight @ self.rel[: len(weight)] / self.modal_mass
 
     @staticmethod
     def stream(x: np.ndarray, u: np.ndarray) -> tuple[Any, Any]:
-        """Speed through the air in m/s, and the angle of that path above the horizon in rad."""
-        ahead, up = x[0] * np.cos(x[2]), x[0] * np.sin(x[2]) - sum(u[2:])
+        """Speed through the air in m/s, and the angle of that path above the horizon in rad.
+
+        u[2] is the vertical velocity of the air in m/s, upwards; u[3] the horizontal, tail wind.
+        """
+        rise, follow = (u[k] if len(u) > k else 0.0 for k in (2, 3))
+        ahead, up = x[0] * np.cos(x[2]) - follow, x[0] * np.sin(x[2]) - rise
         return np.sqrt(ahead**2 + up**2), np.arctan(up / ahead)
+
+    def incidences(self, x: np.ndarray, u: np.ndarray) -> tuple[Any, Any, Any, Any]:
+        """Incidence of the mean axes, of the body and of the engine's inflow in rad; q/V in 1/m.
+
+        What a slosh mode moves the body by is a motion of the body like any other. q/V is the
+        body's too.
+        """
+        (v, path), e = self.stream(x, u), self.elastic
+        eta, rate = x[5::2], x[6::2] / v
+        alpha = x[2] + x[3] - path
+        body, turn = alpha - e.pitch @ eta - e.heave @ rate, x[4] / v - e.pitch @ rate
+        return alpha, body, body + e.ct_eta @ eta + e.ct_rate @ rate + e.ct_q * turn, turn
 
     def forces(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:
         """Lift, drag, thrust N/m, moment N, modal forces N/m of eq. (4), qbar Pa and Mach.
 
         Lift and drag across and along the path through the air.
         """
-        (v, path), q = self.stream(x, u), x[4]
-        alpha = x[2] + x[3] - path
+        v, _ = self.stream(x, u)
+        alpha, body, inflow, turn = self.incidences(x, u)
         eta, rate = x[5::2], x[6::2] / v
         ref, e = self.aero["reference"], self.elastic
         density, sound = atmosphere(self.earth, x[1])
@@ -135,19 +137,21 @@ class Vehicle:
         load = qbar * ref["area_m2_per_m"]
         # What the fuel adds to lift, drag and moment: the pressure of the plume on the aft-body.
         fits = (self.aero.get(key, {}) for key in ("lift_phi", "drag_phi", "moment_phi"))
-        l_phi, d_phi, m_phi = (u[1] * poly(fit, alpha) for fit in fits)
-        c_l = poly(self.aero["lift"], alpha, u[0]) + l_phi + e.cl_eta @ eta + e.cl_rate @ rate
-        c_d = poly(self.aero["drag"], alpha, u[0]) + d_phi + e.cd_eta @ eta + e.cd_rate @ rate
-        c_m = poly(self.aero["moment"], alpha, u[0]) + m_phi + e.cm_eta @ eta + e.cm_rate @ rate
-        inlet = alpha + e.ct_eta @ eta + e.ct_rate @ rate
-        c_t = poly(self.aero["thrust"], inlet) + u[1] * poly(self.aero["thrust_phi"], inlet)
+        l_phi, d_phi, m_phi = (u[1] * poly(fit, body) for fit in fits)
+        c_l = poly(self.aero["lift"], body, u[0]) + l_phi
+        c_l = c_l + e.cl_eta @ eta + e.cl_rate @ rate + e.cl_q * turn
+        c_d = poly(self.aero["drag"], body, u[0]) + d_phi
+        c_d = c_d + e.cd_eta @ eta + e.cd_rate @ rate + e.cd_q * turn
+        c_m = poly(self.aero["moment"], body, u[0]) + m_phi
+        c_m = c_m + e.cm_eta @ eta + e.cm_rate @ rate + e.cm_q * turn
+        c_t = poly(self.aero["thrust"], inflow) + u[1] * poly(self.aero["thrust_phi"], inflow)
         normal = c_l * np.cos(alpha) + c_d * np.sin(alpha)
         shift = self.x_cg - ref["moment_centre_m"]
         moment = load * (ref["chord_m"] * c_m + shift * normal + ref["thrust_arm_m"] * c_t)
         elevator = poly(self.aero["lift"], 0.0, u[0]) - poly(self.aero["lift"], 0.0)
-        modal = e.n_0 + e.n_alpha * alpha + e.n_alpha2 * alpha**2
+        modal = e.n_0 + e.n_alpha * body + e.n_alpha2 * body**2
         modal = modal + e.n_elevator * elevator + e.n_plume * l_phi
-        modal = modal + e.n_eta @ eta + e.n_rate @ rate + e.n_q * (q / v)
+        modal = modal + e.n_eta @ eta + e.n_rate @ rate + e.n_q * turn
         engine = load * c_t * (e.lifted * np.sin(alpha) + e.turned)
         return {
             "alpha": alpha,
@@ -163,7 +167,7 @@ class Vehicle:
     def rhs(self, t: float, x: np.ndarray, u: np.ndarray) -> np.ndarray:
         """State derivative, eq. (3); complex-step safe.
 
-        u = effective (delta_e rad, phi), and the vertical velocity of the air in m/s if it moves.
+        u = effective (delta_e rad, phi), and the velocity of the air in m/s if it moves.
         """
         v, h, gamma, alpha, q = x[:5]
         f, g = self.forces(x, u), gravity(self.earth, h)
@@ -184,7 +188,9 @@ class Vehicle:
         return dx
 
     def outputs(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:
-        """Outputs at one state: theta rad, slosh m, forces N/m, moment N, mach, qbar Pa, n_z."""
+        """Outputs at one state: theta rad, slosh m, forces N/m, moment N, mach, qbar Pa, n_z; and
+        those of the sensors.
+        """
         f = self.forces(x, u)
         slosh = self.rel @ x[5::2]
         normal = f["lift"] * np.cos(f["alpha"]) + f["drag"] * np.sin(f["alpha"])
@@ -195,7 +201,33 @@ class Vehicle:
             "slosh_1": slosh[0],
             "slosh_2": slosh[1],
             "n_z": normal / weight,
+            **readings(self, x, u, f),
         }
+
+    def imu_shapes(self) -> dict[str, float]:
+        """Shape and slope (1/m) of the flexible modes at the IMU, 0 where there is no mode."""
+        found = np.zeros((2, FLEXIBLE))
+        found[:, : min(FLEXIBLE, self.modes_count)] = self.imu[:, :FLEXIBLE]
+        names = [f"{kind}{i + 1}_imu" for kind in ("shape", "slope") for i in range(FLEXIBLE)]
+        return dict(zip(names, found.ravel().tolist(), strict=True))
+
+    def offset(self, x: np.ndarray) -> np.ndarray:
+        """The state x, moved by the offsets of the start.
+
+        Those of the sloshing masses are of the displacement against their tanks: coordinates of
+        the slosh modes follow from it and from what the flexible modes move.
+        """
+        x, by = np.array(x, dtype=float), self.offsets
+        x[3:5] += by["alpha_offset"], by["q_offset"]
+        for first, dot in ((5, ""), (6, "_dot")):
+            flexible = min(FLEXIBLE, self.modes_count)
+            move = np.array([by[f"eta{i + 1}{dot}_offset"] for i in range(flexible)])
+            if self.configuration == SLOSH_BEAM:
+                slosh = [by[f"slosh{j}{dot}_offset"] for j in (1, 2)]
+                rest = slosh - self.rel[:, :FLEXIBLE] @ move
+                move = np.append(move, np.linalg.solve(self.rel[:, FLEXIBLE:], rest))
+            x[first : 5 + 2 * self.modes_count : 2] += move
+        return x
 
     def trim(self) -> tuple[np.ndarray, np.ndarray]:
         """State and effective control of the trimmed flight at mach0, altitude0, gamma0."""
@@ -220,30 +252,24 @@ class Vehicle:
         self._trim = unpack(z)
         return self._trim
 
-    def linearise(self, x: np.ndarray | None = None, u: np.ndarray | None = None) -> Linear:
+    def linearise(
+        self,
+        x: np.ndarray | None = None,
+        u: np.ndarray | None = None,
+        outputs: Sequence[str] = ("V", "gamma"),
+    ) -> Linear:
         """A, B, C, D by complex step about (x, u), by default the trim."""
         if x is None or u is None:
             x, u = self.trim()
-        a = [self.rhs(0.0, x + 1j * TINY * unit, u).imag / TINY for unit in np.eye(len(x))]
-        b = [self.rhs(0.0, x, u + 1j * TINY * unit).imag / TINY for unit in np.eye(2)]
-        return Linear(np.transpose(a), np.transpose(b), np.eye(len(x))[[0, 2]], np.zeros((2, 2)))
+        return linear(self, x, u, outputs)
 
     def poles(self) -> np.ndarray:
         """Eigenvalues of A in rad/s, by decreasing real part."""
-        found = np.linalg.eigvals(self.linearise().a)
-        return found[np.lexsort((found.imag, -found.real))]
+        return in_order(np.linalg.eigvals(self.linearise().a))
 
-    def zeros(self) -> np.ndarray:
-        """Finite invariant zeros from (delta_e, phi) to (V, gamma): the Rosenbrock pencil."""
-        m = self.linearise()
-        a, (scale, _) = matrix_balance(m.a, permute=False, separate=True)
-        b, c = m.b / scale[:, None], m.c * scale
-        b, c = b / np.linalg.norm(b, axis=0), c / np.linalg.norm(c, axis=1)[:, None]
-        left = np.block([[a, b], [c, np.zeros((2, 2))]])
-        right = np.diag([1.0] * len(a) + [0.0, 0.0])
-        found = eig(left, right, right=False)
-        found = found[np.isfinite(found) & (abs(found) < FINITE_ZERO)]
-        return found[np.lexsort((found.imag, -found.real))]
+    def zeros(self, output: str = "gamma") -> np.ndarray:
+        """Finite invariant zeros in rad/s from (delta_e, phi) to V and this output."""
+        return invariant_zeros(self.linearise(outputs=("V", output)))
 
     def effective(self, u: Sequence[float], absolute: bool = False) -> np.ndarray:
         """Effective (delta_e, phi): trim + input, or the input itself, clipped; then any gust."""
@@ -259,13 +285,14 @@ class Vehicle:
         x0: np.ndarray | None = None,
         absolute: bool = False,
     ) -> tuple[np.ndarray, np.ndarray, dict[str, np.ndarray]]:
-        """Trajectory from x0 (default: trim) at t = 0, dt, ..., t_end: times, states, outputs.
+        """Trajectory from x0 at t = 0, dt, ..., t_end: times, states, outputs.
 
+        Without x0 it begins at the trim, moved by the offsets.
         u_of_step(k) is the input held over [k dt, (k+1) dt]. Every step restarts the integrator.
         The outputs at the end of a step still belong to that step's input.
         """
         steps = round(t_end / dt)
-        x = np.array(self.trim()[0] if x0 is None else x0, dtype=float)
+        x = np.array(self.offset(self.trim()[0]) if x0 is None else x0, dtype=float)
         size = np.concatenate([[self.v0, self.altitude0], np.full(self.states - 2, 1e-2)])
         states, history = [x], [self.outputs(x, self.effective(u_of_step(0), absolute))]
         for k in range(steps):
@@ -280,28 +307,3 @@ class Vehicle:
             history.append(self.outputs(x, u))
         table = {key: np.array([row[key] for row in history]) for key in history[0]}
         return dt * np.arange(steps + 1), np.array(states), table
-
-
-def report(vehicle: Vehicle) -> str:
-    """Frequencies, trim, poles and zeros as text."""
-    x, u = vehicle.trim()
-    alpha, delta = np.degrees(x[3]), np.degrees(u[0])
-    return "\n".join(
-        [
-            NAMES[vehicle.configuration - 1],
-            f"  mass           {vehicle.mass:.9f} kg/m, x_cg {vehicle.x_cg:.12f} m",
-            f"  I_yy           {vehicle.i_yy:.6f} kg m^2/m, g_eff {vehicle.g_eff:.12f} m/s^2",
-            f"  omega [rad/s]  {vehicle.omega}",
-            f"  modal mass     {vehicle.modal_mass}",
-            f"  trim           alpha {alpha:.9f} deg, delta_e {delta:.9f} deg, phi {u[1]:.12f}",
-            f"  trim eta [m]   {x[5::2]}",
-            f"  poles [rad/s]  {vehicle.poles()}",
-            f"  zeros [rad/s]  {vehicle.zeros()}",
-        ]
-    )
-
-
-if __name__ == "__main__":
-    np.set_printoptions(precision=10, linewidth=110)
-    for number in (RIGID, EVEN_MASS_BEAM, SLOSH_BEAM):
-        print(report(Vehicle(number)))

@@ -58,18 +58,30 @@ def atmosphere(data: Any, h: Any) -> tuple[Any, Any]:
 
 
 class Elastic:
-    """Elastic derivatives of eq. (4), from two strips of the body and the elevator.
+    """What bending and pitching add to the forces of the body, from two strips and the elevator.
 
-    Attributes, per m of eta or, for the rates, per rad of eta_dot/V: cl_eta, cl_rate (and cd, cm,
-    ct). Modal forces per qbar S: n_0, n_alpha, n_alpha2, n_eta[i, j], n_rate[i, j], n_q; per qbar S
-    and C_L of the elevator alone n_elevator, of the plume n_plume.
-    Modal forces per thrust: lifted * sin(alpha) + turned.
+    The body's own motion in the modes, a change of its incidence: heave (m of the body at the mass
+    centre, by mode) and pitch (its slope in 1/m, nose down).
+    Per m of eta or, for the rates, per rad of eta_dot/V: cl_eta, cl_rate (and cd, cm, ct: the
+    engine's inflow); per rad of q/V times 1 m: cl_q and so on. Modal forces per qbar S: n_0,
+    n_alpha, n_alpha2, n_eta[i, j], n_rate[i, j], n_q; per qbar S and C_L of the elevator alone
+    n_elevator, of the plume n_plume. Modal forces per thrust: lifted * sin(alpha) + turned.
     Also x_e m, strip[power of alpha, strip], strip_slope 1/rad and kappa.
     """
 
-    def __init__(self, geometry: Any, aero: Any, beam: Beam, modes: Modes) -> None:
-        """Elastic terms for the `geometry` table of the vehicle and one aerodynamic data file."""
-        self.beam, self.modes = beam, modes
+    def __init__(
+        self,
+        geometry: Any,
+        aero: Any,
+        beam: Beam,
+        modes: Modes,
+        x_cg: float,
+        pitch_rate: float = 0.0,
+    ) -> None:
+        """Terms for the `geometry` table of the vehicle and one aerodynamic data file.
+
+        x_cg in m is the mass centre; pitch_rate the part of strip theory's answer to pitching.
+        """
         ref, lift, drag, moment = (aero[k] for k in ("reference", "lift", "drag", "moment"))
         chord, x_r = ref["chord_m"], ref["moment_centre_m"]
         a_r, d_r = ref["elastic_alpha_rad"], ref.get("elastic_delta_e_rad", 0.0)
@@ -86,8 +98,6 @@ class Elastic:
         self.strip = np.linalg.solve(np.array([[1.0, 1.0], -arms / chord]), known).T
         self.strip_slope = self.strip[1] + 2.0 * a_r * self.strip[2]
 
-        scale = ref["elastic_scale"]  # of all that answers to local incidence
-
         # Quadrature, exact for the polynomials of each element: points, weights / strip length.
         gauss, weight = np.polynomial.legendre.leggauss(6)
         every = np.union1d(beam.nodes, edges[1])
@@ -99,20 +109,29 @@ class Elastic:
         first = spots[0].size
         x = np.concatenate([s.ravel() for s in spots] + [[x_e]])
         mean = np.concatenate([p.ravel() for p in parts] + [[1.0]])
-        w, rate = self.shapes(x)
+        w, rate = beam.shapes(modes, x)
         strip_of = np.repeat([0, 1, 2], [first, spots[1].size, 1])
 
         def applied(loads: Sequence[float]) -> np.ndarray:
             """Weights of a load: its two strips' values and the elevator's."""
             return mean * np.asarray(loads)[strip_of]
 
-        local = scale * applied((*self.strip_slope, cl_d))  # load per unit of local incidence
-        self.cl_eta, self.cl_rate = -local @ rate, -local @ w
-        self.cm_eta, self.cm_rate = local * (x - x_r) @ rate / chord, local * (x - x_r) @ w / chord
-        kappa = self.kappa = slope(drag, a_r, d_r) / slope(lift, a_r, d_r)
-        self.cd_eta, self.cd_rate = kappa * self.cl_eta, kappa * self.cl_rate
+        # Local incidence beyond the body's, at each point: what bending makes of it is scaled.
+        self.heave, self.pitch = beam.mean(modes, x_cg)
+        scale = ref["elastic_scale"]
+        bent = -scale * (rate - self.pitch)
+        moving = -scale * (w - self.heave - np.outer(x - x_cg, self.pitch))
+        pitching = pitch_rate * (x - x_cg)
+
+        local = applied((*self.strip_slope, cl_d))  # load per unit of local incidence
+        turning = local * (x_r - x) / chord
         fore = applied((1.0, 0.0, 0.0))
-        self.ct_eta, self.ct_rate = -scale * (fore @ rate), -scale * (fore @ w)
+        self.cl_eta, self.cl_rate, self.cl_q = local @ bent, local @ moving, local @ pitching
+        self.cm_eta, self.cm_rate, self.cm_q = turning @ bent, turning @ moving, turning @ pitching
+        self.ct_eta, self.ct_rate, self.ct_q = fore @ bent, fore @ moving, fore @ pitching
+        kappa = self.kappa = slope(drag, a_r, d_r) / slope(lift, a_r, d_r)
+        lifts = (self.cl_eta, self.cl_rate, self.cl_q)
+        self.cd_eta, self.cd_rate, self.cd_q = (kappa * part for part in lifts)
         self.n_0 = applied((*self.strip[0], 0.0)) @ w
         self.n_alpha = applied((*self.strip[1], cl_d)) @ w
         self.n_alpha2 = applied((*self.strip[2], 0.0)) @ w
@@ -120,21 +139,12 @@ class Elastic:
         # One force for all the lift that the fuel adds, where its moment at a_r puts it.
         plume = [poly(aero.get(key, {}), a_r) for key in ("lift_phi", "moment_phi")]
         x_p = self.x_p = x_r - chord * plume[1] / plume[0] if plume[0] else None
-        self.n_plume = np.zeros(w.shape[1]) if x_p is None else self.shapes(np.array([x_p]))[0][0]
-        self.n_eta, self.n_rate = -(w.T * local) @ rate, -(w.T * local) @ w
-        self.n_q = (local * (x - beam.x_cg)) @ w
+        self.n_plume = np.zeros(w.shape[1])
+        if x_p is not None:
+            self.n_plume = beam.shapes(modes, np.array([x_p]))[0][0]
+        push = w.T * local
+        self.n_eta, self.n_rate, self.n_q = push @ bent, push @ moving, push @ pitching
         # The thrust's virtual work: T sin(alpha) lifts the mass centre, T z_T turns the nacelle.
         engine = geometry["fore_body_m"] + geometry["nacelle_m"] / 2.0
-        self.lifted = self.shapes(np.array([beam.x_cg]))[0][0]
-        self.turned = -ref["thrust_arm_m"] * self.shapes(np.array([engine]))[1][0]
-
-    def shapes(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Mode shapes phi_i(x) and slopes phi_i'(x) in 1/m by the Hermite functions; [x, mode]."""
-        step = self.beam.step
-        e = np.clip((x / step).astype(int), 0, len(self.beam.density) - 1)
-        s = ((x - self.beam.nodes[e]) / step)[:, None]
-        w1, w2 = self.modes.w[e], self.modes.w[e + 1]
-        t1, t2 = self.modes.slope[e] * step, self.modes.slope[e + 1] * step
-        w = w1 + s * (t1 + s * (3 * (w2 - w1) - 2 * t1 - t2 + s * (2 * (w1 - w2) + t1 + t2)))
-        rate = t1 + s * (6 * (w2 - w1) - 4 * t1 - 2 * t2 + s * (6 * (w1 - w2) + 3 * (t1 + t2)))
-        return w, rate / step
+        self.lifted = beam.shapes(modes, np.array([x_cg]))[0][0]
+        self.turned = -ref["thrust_arm_m"] * beam.shapes(modes, np.array([engine]))[1][0]

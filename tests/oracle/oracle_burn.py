@@ -2,9 +2,9 @@
 
 The modes are the eigenmodes of the fuel on board, as solved at a few levels and joined by one
 polynomial each: near full tanks their frequencies stay apart. In modal coordinates that move with
-the modes, M u'' + K u = F is
+the modes, M' u'' + K u = F is
 
-    eta'' + 2 f' B eta' + D eta' + omega^2 eta = N,   B = phi^T M (d phi / d f) / mu,
+    eta'' + 2 f' B eta' + D eta' + omega^2 eta = N,   B = phi^T M' (d phi / d f) / mu,
 
 but for terms of second order in the flow f'. So eta is not the FMU's, whose basis turns another
 way; everything else is.
@@ -13,19 +13,25 @@ way; everything else is.
 from __future__ import annotations
 
 from copy import copy
+from decimal import localcontext
 from typing import Any
 
 import numpy as np
 
 from oracle import Vehicle
 from oracle_aero import atmosphere
+from oracle_modes import DIGITS, to_decimal
 
 LEVELS = 6
 # Part of the fuel below the start in which a flight may end.
 REACH = 0.04
-OF_VEHICLE = ("mass", "x_cg", "i_yy", "omega", "modal_mass", "damping", "floor", "rel")
+OF_VEHICLE = (
+    *("mass", "x_cg", "i_yy", "omega", "modal_mass", "damping", "floor", "rel"),
+    *("imu", "probe"),
+)
 OF_ELASTIC = (
-    *("cl_eta", "cl_rate", "cd_eta", "cd_rate", "cm_eta", "cm_rate", "ct_eta", "ct_rate"),
+    *("heave", "pitch", "cl_eta", "cl_rate", "cl_q", "cd_eta", "cd_rate", "cd_q"),
+    *("cm_eta", "cm_rate", "cm_q", "ct_eta", "ct_rate", "ct_q"),
     *("n_0", "n_alpha", "n_alpha2", "n_elevator", "n_plume", "n_eta", "n_rate", "n_q"),
     *("lifted", "turned"),
 )
@@ -75,14 +81,10 @@ class Burning(Vehicle):
 
     @staticmethod
     def _product(vehicle: Vehicle, block: np.ndarray) -> np.ndarray:
-        """Mass matrix times a block of displacements."""
-        _, mass, _, _ = vehicle.beam.matrices()
-        product = np.zeros_like(block)
-        for (row, column), value in mass.items():
-            product[row] += float(value) * block[column]
-            if row != column:
-                product[column] += float(value) * block[row]
-        return product
+        """Mass matrix M' times a block of displacements."""
+        with localcontext(prec=DIGITS):
+            _, inertia, _ = vehicle.beam.structure()
+            return inertia.times(to_decimal(block)).astype(float)
 
     def at(self, fuel: Any) -> tuple[Vehicle, np.ndarray]:
         """The vehicle with this fuel on board, kg/m, and B, m/kg; complex-step safe."""
@@ -100,12 +102,11 @@ class Burning(Vehicle):
         """Fuel in kg/(m s) for the air that passes the lip, behind the bow shock.
 
         Shock of a slender wedge in hypersonic similarity; `turn` in rad is that of the stream from
-        its path to the fore-body, with the incidence of the inlet bent by the modes.
+        its path to the fore-body, as the engine's inflow has it.
         """
         outline, engine, air = self.data["outline"], self.data["engine"], self.earth["air"]
-        (v, path), e = self.stream(x, u), vehicle.elastic
-        bent = e.ct_eta @ x[5::2] + e.ct_rate @ x[6::2] / v
-        turn = x[2] + x[3] - path + bent + outline["lower_angle_rad"]
+        v, _ = self.stream(x, u)
+        turn = vehicle.incidences(x, u)[2] + outline["lower_angle_rad"]
         density, sound = atmosphere(self.earth, x[1])
         gamma, mach = air["heat_capacity_ratio"], v / sound
         k = (gamma + 1.0) / 4.0 * mach * turn
@@ -125,7 +126,11 @@ class Burning(Vehicle):
         return rates
 
     def outputs(self, x: np.ndarray, u: np.ndarray) -> dict[str, Any]:
-        """Those of the vehicle with the fuel on board."""
+        """Those of the vehicle with the fuel on board.
+
+        What the IMU feels of the modes' acceleration leaves out 2 f' B eta': the displacement is
+        phi eta, and phi turns by as much.
+        """
         return self.at(x[-1])[0].outputs(x[:-1], u)
 
     def trim(self) -> tuple[np.ndarray, np.ndarray]:

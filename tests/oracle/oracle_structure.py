@@ -2,7 +2,7 @@
 
 SI units, per metre of vehicle width; x runs aft from the nose, w is positive upwards.
 The stiffness and mass matrices are the textbook Hermite ones, assembled as they stand, in decimal
-arithmetic: see oracle_modes.
+arithmetic: see oracle_modes. The body is the beam with its frozen liquid, without sloshing masses.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Legendre
 
-from oracle_modes import DIGITS, lowest
+from oracle_modes import DIGITS, Inertia, lowest, to_decimal
+from oracle_tanks import Tank, tanks
 
 RIGID, EVEN_MASS_BEAM, SLOSH_BEAM = 1, 2, 3
 GUARD_VECTORS = 6  # beyond the wanted modes, for the inverse iteration
@@ -33,50 +34,6 @@ def load(path: Path) -> Any:
     return plain(tomllib.loads(path.read_text(encoding="utf-8")))
 
 
-@dataclass(frozen=True)
-class Tank:
-    """One tank: masses in kg/m, lengths in m, stiffness in N/m per m, damping in N s/m per m."""
-
-    centre: float
-    length: float
-    slosh_mass: float
-    frozen_mass: float
-    omega: float
-    stiffness: float
-    damping: float
-
-
-def tanks(
-    data: Any, total_mass: float, fuel: float, damping: float, frequency: float, g_eff: float
-) -> list[Tank]:
-    """Sloshing and frozen liquid of each tank (Graham and Rodriguez 1952, first mode).
-
-    total_mass kg/m of the full vehicle, damping ratio, frequency rad/s (0: geometry), g_eff m/s^2.
-    """
-    residual = data["mass"]["residual_fraction"]
-    level = residual + (1.0 - residual) * fuel
-    found = []
-    for tank in data["tank"]:
-        mass = tank["share"] * data["mass"]["propellant_fraction"] * total_mass * level
-        bay = tank["bay_length_m"]
-        ratio = tank["depth_full_m"] * level / bay
-        slosh = mass * 8.0 * np.tanh(np.pi * ratio) / (np.pi**3 * ratio)
-        omega = np.sqrt(g_eff * np.pi / bay * np.tanh(np.pi * ratio))
-        omega = frequency if frequency > 0.0 else omega
-        found.append(
-            Tank(
-                tank["centre_m"],
-                tank["length_m"],
-                float(slosh),
-                float(mass - slosh),
-                float(omega),
-                float(slosh * omega**2),
-                float(2.0 * damping * slosh * omega),
-            )
-        )
-    return found
-
-
 def overlap(nodes: np.ndarray, start: float, end: float) -> np.ndarray:
     """Length in m that each element shares with [start, end]."""
     return np.clip(np.minimum(nodes[1:], end) - np.maximum(nodes[:-1], start), 0.0, None)
@@ -86,7 +43,8 @@ class Beam:
     """Distributed and point masses of one configuration at one fuel fraction, and the modes.
 
     Attributes: nodes m, density kg/m^2 and stiffness N m^2/m per element, tanks (SloshBeam only),
-    slosh_nodes, mass kg/m, x_cg m, inertia kg m^2/m about x_cg.
+    slosh_nodes; of the densities mass kg/m, x_own m and inertia kg m^2/m about x_own; wanted, the
+    mass centre m and the inertia about it that `prescribe` sets.
     """
 
     def __init__(
@@ -130,13 +88,40 @@ class Beam:
         self.slosh_nodes = [int(np.argmin(abs(self.nodes - t.centre))) for t in self.tanks]
 
         # The Hermite functions reproduce w = 1 and w = x exactly, hence the plain integrals.
-        point = np.array([tank.slosh_mass for tank in self.tanks])
-        where = self.nodes[self.slosh_nodes]
-        line = self.density * self.step
-        self.mass = float(line.sum() + point.sum())
-        self.x_cg = float((line @ middles + point @ where) / self.mass)
-        arm = (middles - self.x_cg) ** 2 + self.step**2 / 12.0
-        self.inertia = float(line @ arm + point @ (where - self.x_cg) ** 2)
+        mass, centre, spread = self.body()
+        point, where = self.points()
+        self.mass = float(mass + point.sum())
+        self.x_own = float((mass * centre + point @ where) / self.mass)
+        own = spread + mass * (centre - self.x_own) ** 2
+        self.inertia = float(own + point @ (where - self.x_own) ** 2)
+        self.wanted: tuple[float, float] | None = None
+
+    def body(self) -> tuple[float, float, float]:
+        """Mass kg/m, mass centre m and inertia kg m^2/m about it, of the body by its density."""
+        line, middles = self.density * self.step, self.nodes[:-1] + self.step / 2.0
+        mass = float(line.sum())
+        centre = float(line @ middles / mass)
+        return mass, centre, float(line @ ((middles - centre) ** 2 + self.step**2 / 12.0))
+
+    def points(self) -> tuple[np.ndarray, np.ndarray]:
+        """Sloshing masses in kg/m and their stations in m."""
+        return np.array([tank.slosh_mass for tank in self.tanks]), self.nodes[self.slosh_nodes]
+
+    def prescribe(self, centre: float, inertia: float) -> None:
+        """Mass centre in m and inertia in kg m^2/m about it, of body and sloshing masses together.
+
+        The body makes up for what the densities give.
+        """
+        mass, x_b, _ = self.body()
+        point, where = self.points()
+        first = self.mass * (centre - x_b) - point @ (where - x_b)
+        second = inertia + self.mass * (centre - x_b) ** 2 - point @ (where - x_b) ** 2
+        if second <= 0.0 or mass * second <= first**2:
+            raise ValueError(
+                f"no body of {mass:.6g} kg/m has the first moment {first:.6g} kg and the inertia "
+                f"{second:.6g} kg m about {x_b:.6g} m"
+            )
+        self.wanted = centre, inertia
 
     def matrices(self) -> tuple[dict, dict, np.ndarray, list[int]]:
         """Lower triangles of K and M as {(row, column): Decimal}; place of w per node; of w_s.
@@ -187,20 +172,39 @@ class Beam:
             add(mass, row, row, Decimal(tank.slosh_mass))
         return stiff, mass, first, slosh
 
+    def structure(self) -> tuple[dict, Inertia, np.ndarray]:
+        """K, M' and heave and pitch of everything [unknown, 2]; all Decimal."""
+        stiff, mass, first, slosh = self.matrices()
+        step, zero, one = Decimal(self.step), Decimal(0), Decimal(1)
+        body = np.full((2 * len(self.nodes) + len(slosh), 2), zero, dtype=object)
+        body[first, 0] = body[first + 1, 1] = one
+        body[first, 1] = [step * node for node in range(len(self.nodes))]
+        free = body.copy()
+        free[slosh] = free[first[self.slosh_nodes]]
+        rigid = None
+        if self.wanted is not None:
+            # Mass, first and second moment about the nose: of everything, less those that slosh.
+            total, centre, inertia = to_decimal(np.array([self.mass, *self.wanted]))
+            moments = [total, total * centre, inertia + total * centre**2]
+            for tank, row in zip(self.tanks, slosh, strict=True):
+                point, x = Decimal(tank.slosh_mass), free[row, 1]
+                moments = [m - point * x**k for k, m in enumerate(moments)]
+            rigid = np.array([moments[:2], moments[1:]], dtype=object)
+        return stiff, Inertia(mass, body, rigid), free
+
     def modes(self, count: int) -> Modes:
         """The `count` lowest elastic modes, in the order and scaling of the equations."""
-        with localcontext() as context:
-            context.prec = DIGITS
-            stiff, mass, first, slosh = self.matrices()
+        _, _, first, slosh = self.matrices()
         size = 2 * len(self.nodes) + len(slosh)
-        start = self._start(size, count + 2 + GUARD_VECTORS, first, slosh)
-        values, vectors = lowest(stiff, mass, start, count + 2)
-        omega = np.sqrt(values[2:])
-        shape = np.stack([vectors[first, 2:], vectors[first + 1, 2:]])
-        moved = vectors[slosh, 2:]
+        start = self._start(size, count + GUARD_VECTORS, first, slosh)
+        with localcontext(prec=DIGITS):
+            stiff, inertia, free = self.structure()
+            values, vectors = lowest(stiff, inertia, free, start, count)
+        omega = np.sqrt(values)
+        shape = np.stack([vectors[first], vectors[first + 1]])
+        moved = vectors[slosh]
         rel = moved - shape[0][self.slosh_nodes]
-        point = np.array([tank.slosh_mass for tank in self.tanks])
-        share = point @ moved**2  # the vectors come with unit modal mass
+        share = self.points()[0] @ moved**2  # the vectors come with unit modal mass
         order = np.arange(count)
         if self.tanks:
             last = np.sort(np.argsort(share)[-2:])
@@ -213,17 +217,37 @@ class Beam:
         return Modes(omega, scale**-2.0, shape[0] / scale, shape[1] / scale, rel / scale)
 
     def _start(self, size: int, count: int, first: np.ndarray, slosh: list[int]) -> np.ndarray:
-        """Start block: Legendre polynomials along the beam, and each sloshing mass alone."""
+        """Start block: bent Legendre polynomials of the beam, and each sloshing mass alone."""
         block = np.zeros((size, count))
         length = float(self.nodes[-1])
         for k in range(count - len(slosh)):
-            polynomial = Legendre.basis(k, domain=[0.0, length])
+            polynomial = Legendre.basis(k + 2, domain=[0.0, length])
             block[first, k] = polynomial(self.nodes)
             block[first + 1, k] = polynomial.deriv()(self.nodes)
             block[slosh, k] = polynomial(self.nodes[self.slosh_nodes])
         for k, row in enumerate(slosh):
             block[row, count - 1 - k] = 1.0
         return block
+
+    def shapes(self, modes: Modes, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Mode shapes phi_i(x) and slopes phi_i'(x) in 1/m by the Hermite functions; [x, mode]."""
+        e = np.clip((x / self.step).astype(int), 0, len(self.density) - 1)
+        s = ((x - self.nodes[e]) / self.step)[:, None]
+        w1, w2 = modes.w[e], modes.w[e + 1]
+        t1, t2 = modes.slope[e] * self.step, modes.slope[e + 1] * self.step
+        w = w1 + s * (t1 + s * (3 * (w2 - w1) - 2 * t1 - t2 + s * (2 * (w1 - w2) + t1 + t2)))
+        rate = t1 + s * (6 * (w2 - w1) - 4 * t1 - 2 * t2 + s * (6 * (w1 - w2) + 3 * (t1 + t2)))
+        return w, rate / self.step
+
+    def mean(self, modes: Modes, x: float) -> tuple[np.ndarray, np.ndarray]:
+        """By mode, the body's mean displacement at x and its mean slope in 1/m, as momenta say."""
+        gauss, weight = np.polynomial.legendre.leggauss(4)
+        spots = (self.nodes[:-1, None] + self.step * (1.0 + gauss) / 2.0).ravel()
+        line = np.outer(self.density, self.step * weight / 2.0).ravel()
+        w, _ = self.shapes(modes, spots)
+        mass, centre, inertia = self.body()
+        slope = (line * (spots - centre)) @ w / inertia
+        return line @ w / mass + slope * (x - centre), slope
 
 
 @dataclass(frozen=True)
