@@ -106,4 +106,18 @@ impl Chosen {
         let inertia = i_yy_kg_m2_per_m.value * own.inertia / full.inertia;
         Ok((beam.with_moments(&oscillators, centre, inertia)?, oscillators))
     }
+
+    /// The same with the inertial measurement unit where Table 3 reads the flight-path angle.
+    ///
+    /// # Errors
+    /// Those of [`Chosen::structure`].
+    pub fn sensed_as_printed(mut self) -> Result<Self, Error> {
+        let (beam, oscillators) = self.structure()?;
+        let offset = match self.build.configuration {
+            Configuration::Rigid => 0.0,
+            _ => self.aero.reference.gamma_offset_m.as_ref().map_or(0.0, |offset| offset.value),
+        };
+        self.build.stations.imu = beam.mass_properties(&oscillators).centre_m + offset;
+        Ok(self)
+    }
 }

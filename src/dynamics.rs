@@ -147,7 +147,7 @@ impl Vehicle {
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: Gust<S>) -> State<S> {
         match &self.burn {
             None => self.rates(&self.airframe, &self.met(&self.airframe, x, u, gust), x),
-            Some(burn) => self.burning(burn, x, u, gust, |_, _, rates| rates),
+            Some(burn) => self.burning(burn, x, u, gust, |_, _, [rates, _]| rates),
         }
     }
 
@@ -159,8 +159,8 @@ impl Vehicle {
         gust: Gust<S>,
     ) -> (State<S>, Outputs<S>) {
         if let Some(burn) = &self.burn {
-            return self.burning(burn, x, u, gust, |airframe, met, rates| {
-                (rates, self.shown(airframe, &met, x, u, &rates))
+            return self.burning(burn, x, u, gust, |airframe, met, [rates, felt]| {
+                (rates, self.shown(airframe, &met, x, u, &felt))
             });
         }
         let met = self.met(&self.airframe, x, u, gust);
@@ -176,13 +176,10 @@ impl Vehicle {
         gust: Gust<S>,
         rates: &State<S>,
     ) -> Outputs<S> {
-        match &self.burn {
-            None => self.shown(&self.airframe, &self.met(&self.airframe, x, u, gust), x, u, rates),
-            Some(burn) => {
-                let airframe = burn.airframe(x[FUEL]);
-                self.shown(&airframe, &self.met(&airframe, x, u, gust), x, u, rates)
-            }
+        if self.burn.is_some() {
+            return self.both(x, u, gust).1;
         }
+        self.shown(&self.airframe, &self.met(&self.airframe, x, u, gust), x, u, rates)
     }
 
     /// Eq. (3) in known air, at one fuel level.

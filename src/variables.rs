@@ -4,6 +4,7 @@
 
 mod hash;
 mod table;
+mod words;
 
 pub use hash::{MODEL_HASH, guid};
 pub use table::TABLE;

@@ -4,7 +4,8 @@
 mod model;
 
 use ahv::dynamics::{NOMINAL, STATES};
-use ahv::flight::{Flight, GUST, INPUTS, Snapshot};
+use ahv::dynamics::CONTROLS;
+use ahv::flight::{Flight, INPUTS, Snapshot};
 use ahv::variables::{Role, TABLE, Variable};
 use ahv::vehicle::{AeroSet, Configuration};
 use model::{AERO_SETS, CONFIGURATIONS};
@@ -36,6 +37,8 @@ fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
     // The fuel matters only while it burns.
     let burns = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
     flight.change(|p| p.build.fuel_burn = burns);
+    // The pitch rate matters to the loads only where its terms count.
+    flight.change(|p| p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 });
     flight.initialise().unwrap();
     let states = flight.vehicle().unwrap().states();
     let mut snapshot = flight.snapshot();
@@ -43,7 +46,7 @@ fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
         *value += 0.1 * NOMINAL[i] * [1.0, -0.7, 0.9, 0.8, -1.1][i % 5];
     }
     // In still air the flight-path angle would not matter to the loads.
-    snapshot.inputs.values[GUST] = 5.0;
+    snapshot.inputs.values[CONTROLS..].copy_from_slice(&[5.0, 3.0]);
     snapshot
 }
 

@@ -34,7 +34,7 @@ fn verif_trim_leaves_no_acceleration() {
                 let vehicle = Vehicle::new(&data(), &build).unwrap();
                 let condition = Condition { mach, ..build.condition };
                 let trimmed = trim(&vehicle, &condition).unwrap();
-                let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, 0.0);
+                let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, [0.0; 2]);
                 for (i, rate) in rates.into_iter().enumerate() {
                     // Modal accelerations against omega^2 times the static deflection.
                     let size = if i < 5 { 10.0 } else { 1e4 };
@@ -53,7 +53,7 @@ fn verif_a_climb_can_be_trimmed_too() {
     let vehicle = vehicle(Configuration::SloshBeam);
     let condition = Condition { mach: 8.0, altitude: 26_000.0, gamma: 0.02 };
     let trimmed = trim(&vehicle, &condition).unwrap();
-    let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, 0.0);
+    let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, [0.0; 2]);
     assert!(deviation(rates[1], trimmed.state[0] * 0.02_f64.sin(), 1.0) < STEADY);
     assert!(rates[0].abs() < STEADY * 10.0 && rates[2].abs() < STEADY);
 }
@@ -88,7 +88,7 @@ proptest! {
         for build in builds() {
             let vehicle = Vehicle::new(&data(), &build).unwrap();
             let x = disturbed(&vehicle, scale);
-            let rates = vehicle.derivatives(&x, &[0.1, 0.3], 0.0);
+            let rates = vehicle.derivatives(&x, &[0.1, 0.3], [0.0; 2]);
             prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
             prop_assert!(rates[vehicle.states()..].iter().all(|&rate| rate == 0.0));
         }
@@ -111,7 +111,7 @@ proptest! {
                     } else {
                         u[column - n] += sign * step * size;
                     }
-                    vehicle.derivatives(&x, &u, 0.0)
+                    vehicle.derivatives(&x, &u, [0.0; 2])
                 };
                 let (one, two) = ((shifted(1.0), shifted(-1.0)), (shifted(2.0), shifted(-2.0)));
                 for row in 0..n {
@@ -139,9 +139,9 @@ fn verif_dual_numbers_carry_the_plain_value() {
         let dual = vehicle.derivatives(
             &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),
             &[0.1, 0.3].map(|v| Dual { re: v, eps: [0.0] }),
-            Dual::constant(0.0),
+            [Dual::constant(0.0); 2],
         );
-        assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3], 0.0));
+        assert_eq!(dual.map(|d| d.re), vehicle.derivatives(&x, &[0.1, 0.3], [0.0; 2]));
     }
 }
 

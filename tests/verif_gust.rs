@@ -4,7 +4,7 @@
 mod model;
 
 use ahv::dynamics::{NOMINAL, RIGID, STATES, State, Vehicle};
-use ahv::flight::{Flight, GUST};
+use ahv::flight::Flight;
 use ahv::scalar::{Dual, Scalar};
 use ahv::trim::Condition;
 use ahv::vehicle::Configuration;
@@ -22,6 +22,10 @@ fn climbing(vehicle: &Vehicle) -> State {
     std::array::from_fn(|i| if i < vehicle.states() { start[i] + 0.3 * NOMINAL[i] } else { 0.0 })
 }
 
+/// Number of the vertical gust among the inputs.
+const W_GUST: usize = 2;
+const STILL: [f64; 2] = [0.0; 2];
+
 /// Acceleration in earth axes, forward and up, without gravity and the earth's curvature, m/s^2.
 fn specific_force(vehicle: &Vehicle, x: &State, rates: &State) -> [f64; 2] {
     let (gravity, distance) = vehicle.atmosphere.gravity(x[1]);
@@ -37,23 +41,27 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
     for build in builds() {
         let vehicle = Vehicle::new(&data(), &build).unwrap();
         let x = climbing(&vehicle);
-        for gust in [-80.0, -3.0, 1e-9, 25.0] {
-            let (ahead, up) = (x[0] * x[2].cos(), x[0] * x[2].sin() - gust);
+        for gust in [[-80.0, 0.0], [-3.0, 20.0], [1e-9, 0.0], [25.0, -60.0], [0.0, 90.0]] {
+            let ahead = x[0] * x[2].cos() - gust[1];
+            let up = x[0] * x[2].sin() - gust[0];
             let mut still = x;
             (still[0], still[2]) = (ahead.hypot(up), up.atan2(ahead));
             still[3] = x[3] + x[2] - still[2];
 
             let moving = vehicle.derivatives(&x, &CONTROL, gust);
-            let seen = vehicle.derivatives(&still, &CONTROL, 0.0);
+            let seen = vehicle.derivatives(&still, &CONTROL, STILL);
             let forces =
                 [(&x, &moving), (&still, &seen)].map(|(x, r)| specific_force(&vehicle, x, r));
             for (a, b) in forces[0].into_iter().zip(forces[1]) {
-                assert!(deviation(a, b, 10.0) < TURNED, "{gust} m/s: {forces:?}");
+                assert!(deviation(a, b, 10.0) < TURNED, "{gust:?} m/s: {forces:?}");
             }
             for i in std::iter::once(4).chain(RIGID..vehicle.states()) {
-                assert!(deviation(moving[i], seen[i], 10.0) < TURNED, "{gust} m/s, state {i}");
+                assert!(deviation(moving[i], seen[i], 10.0) < TURNED, "{gust:?} m/s, state {i}");
             }
-            let [a, b] = [(&x, gust), (&still, 0.0)].map(|(x, w)| vehicle.outputs(x, &CONTROL, w));
+            let [a, b] =
+                [(&x, gust), (&still, STILL)].map(|(x, w)| vehicle.both(x, &CONTROL, w).1);
+            assert!(deviation(a.alpha_probe, b.alpha_probe, 0.01) < TURNED);
+            assert!(deviation(a.imu.n_x, b.imu.n_x, 1.0) < TURNED);
             assert!(deviation(a.loads.mach, b.loads.mach, 0.0) < TURNED);
             assert!(deviation(a.n_z, b.n_z, 1.0) < TURNED);
         }
@@ -64,21 +72,25 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
 fn verif_a_gust_has_exact_derivatives_also_where_it_is_zero() {
     let vehicle = vehicle(Configuration::SloshBeam);
     let x = climbing(&vehicle);
-    for gust in [0.0, 12.0] {
+    for (gust, component) in [(0.0, 0), (12.0, 0), (0.0, 1), (12.0, 1)] {
+        let along = |size: f64| std::array::from_fn(|i| if i == component { size } else { 0.0 });
         let dual = vehicle.derivatives(
             &x.map(Dual::constant),
             &CONTROL.map(Dual::constant),
-            Dual::<1>::variable(gust, 0),
+            std::array::from_fn(|i| Dual::<1> {
+                re: along(gust)[i],
+                eps: [f64::from(i == component)],
+            }),
         );
         let [ahead, behind] =
-            [1.0, -1.0].map(|step| vehicle.derivatives(&x, &CONTROL, gust + step));
+            [1.0, -1.0].map(|step| vehicle.derivatives(&x, &CONTROL, along(gust + step)));
         for i in 0..STATES {
             let difference = (ahead[i] - behind[i]) / 2.0;
             // What the second-order difference leaves: the gust's cube over V's square.
             let floor = 1e-6 * NOMINAL[i].max(dual[i].re.abs());
             assert!(
                 deviation(dual[i].eps[0], difference, floor / DIFFERENCES) < DIFFERENCES,
-                "{gust} m/s, state {i}: {} against {difference}",
+                "{gust} m/s, component {component}, state {i}: {} against {difference}",
                 dual[i].eps[0]
             );
         }
@@ -89,7 +101,7 @@ fn verif_a_gust_has_exact_derivatives_also_where_it_is_zero() {
 fn verif_the_envelope_is_that_of_the_incidence_to_the_moving_air() {
     let gusty = |gust: f64| {
         let mut flight = flight(Configuration::Rigid);
-        flight.set_input(GUST, gust);
+        flight.set_input(W_GUST, gust);
         flight
     };
     let up = |flight: &mut Flight| flight.advance(0.01).map(|()| flight.state()[2]);

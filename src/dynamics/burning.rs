@@ -5,12 +5,14 @@ use crate::burn::Burn;
 use crate::scalar::Scalar;
 
 impl Vehicle {
-    /// Rates while fuel burns, and what `f` makes of them.
+    /// Rates while fuel burns, and what `f` makes of them and of those without the turning of the shapes.
     ///
     /// Fuel leaves its place with the velocity that it has there, so `M u'' + K u = F` holds for the
     /// displacement u of the beam at any fuel f. In modal coordinates, `u = Phi(f) eta`, this becomes
     /// `eta'' + 2 f' B eta' + D eta' + K eta = N` with `B = mu^-1 Phi^T M dPhi/df`. What is left out,
-    /// `(f'^2 mu^-1 Phi^T M d^2Phi/df^2 + f'' B) eta`, is of second order in f' (errata, 22).
+    /// `(f'^2 mu^-1 Phi^T M d^2Phi/df^2 + f'' B) eta`, is of second order in f' (errata, 22). Of the
+    /// acceleration of a place, `2 f' dPhi/df eta'` makes up for the turning: an accelerometer feels
+    /// `Phi` times the rest.
     #[inline(never)]
     pub(super) fn burning<S: Scalar, T>(
         &self,
@@ -18,7 +20,7 @@ impl Vehicle {
         x: &State<S>,
         u: &Control<S>,
         gust: Gust<S>,
-        f: impl FnOnce(&Airframe<S>, Met<S>, State<S>) -> T,
+        f: impl FnOnce(&Airframe<S>, Met<S>, [State<S>; 2]) -> T,
     ) -> T {
         let airframe = burn.airframe(x[FUEL]);
         let met = self.met(&airframe, x, u, gust);
@@ -29,18 +31,21 @@ impl Vehicle {
         let fuel_rate =
             -self.intake.fuel_flow(mass_flux, met.loads.mach, met.coefficients.inflow, u[1]);
         rates[FUEL] = fuel_rate;
+        let mut felt = rates;
         for i in 0..self.modes {
-            let mut coupling = S::constant(0.0);
+            let (mut stiffness, mut turning) = (S::constant(0.0), S::constant(0.0));
             for k in 0..self.modes {
                 let (eta, eta_dot) = (x[RIGID + 2 * k], x[RIGID + 2 * k + 1]);
                 if k != i {
-                    coupling = coupling + eta * airframe.stiffness[i][k];
+                    stiffness = stiffness + eta * airframe.stiffness[i][k];
                 }
-                coupling = coupling + fuel_rate * 2.0 * eta_dot * airframe.turning[i][k];
+                turning = turning + fuel_rate * 2.0 * eta_dot * airframe.turning[i][k];
             }
-            rates[RIGID + 2 * i + 1] = rates[RIGID + 2 * i + 1] - coupling;
+            let rate = RIGID + 2 * i + 1;
+            felt[rate] = felt[rate] - stiffness;
+            rates[rate] = felt[rate] - turning;
         }
-        f(&airframe, met, rates)
+        f(&airframe, met, [rates, felt])
     }
 
     /// Whether fuel burns and none is left; a mass that is not a number counts as none.

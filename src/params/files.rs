@@ -232,6 +232,9 @@ pub struct Reference {
     pub elastic_scale: Quantity,
     /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
     pub elastic_delta_e_rad: Option<Quantity>,
+    /// Station whose flight-path angle Table 3 reads in the flexible columns, m aft of the mass centre;
+    /// read by reports only.
+    pub gamma_offset_m: Option<Quantity>,
 }
 
 /// Inertia and damping of a coefficient set.

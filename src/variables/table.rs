@@ -1,173 +1,11 @@
-//! The rows, and the words in which they are said.
+//! The rows.
 
-use super::{Dependencies, Kind, Role, Unit, Variable};
-use crate::dynamics::{RIGID, STATES};
+use super::words::*;
+use super::{Dependencies, Kind, Variable};
+use crate::dynamics::RIGID;
 use crate::flight::{Flight, Sample};
 use crate::parameters::InputMode;
-use crate::params::OWN;
 use crate::vehicle::{AeroSet, Configuration};
-
-const fn unit(name: &'static str, base: [i32; 4]) -> Unit {
-    Unit { name, base, display: None }
-}
-
-/// Degrees per radian.
-const DEGREES: f64 = 180.0 / core::f64::consts::PI;
-
-const ONE: Unit = unit("1", [0, 0, 0, 0]);
-const METRE: Unit = unit("m", [0, 1, 0, 0]);
-/// Slope per deflection: an angle over a length.
-const SLOPE: Unit = unit("rad/m", [0, -1, 0, 1]);
-const SPEED: Unit = unit("m/s", [0, 1, -1, 0]);
-const ACCELERATION: Unit = unit("m/s2", [0, 1, -2, 0]);
-const ANGLE: Unit = Unit { name: "rad", base: [0, 0, 0, 1], display: Some(("deg", DEGREES)) };
-const ANGULAR_RATE: Unit =
-    Unit { name: "rad/s", base: [0, 0, -1, 1], display: Some(("deg/s", DEGREES)) };
-const ANGULAR_ACCELERATION: Unit = unit("rad/s2", [0, 0, -2, 1]);
-/// Frequencies share the dimension of an angular rate but are not shown in degrees.
-const FREQUENCY: Unit = unit("rad/s", [0, 0, -1, 1]);
-const FORCE_PER_WIDTH: Unit = unit("N/m", [1, 0, -2, 0]);
-const MOMENT_PER_WIDTH: Unit = unit("N", [1, 1, -2, 0]);
-const MASS_PER_WIDTH: Unit = unit("kg/m", [1, -1, 0, 0]);
-const MASS_FLOW_PER_WIDTH: Unit = unit("kg/(m.s)", [1, -1, -1, 0]);
-const PRESSURE: Unit = unit("Pa", [1, -1, -2, 0]);
-
-const NONE: Dependencies = Dependencies { dependent: 0, fixed: 0, constant: 0 };
-
-const fn dependent(mask: u32) -> Dependencies {
-    Dependencies { dependent: mask, ..NONE }
-}
-
-/// A mode that a configuration does not have stays at rest: the factor is fixed, not constant.
-const fn fixed(mask: u32) -> Dependencies {
-    Dependencies { fixed: mask, ..NONE }
-}
-
-const fn constant(mask: u32) -> Dependencies {
-    Dependencies { constant: mask, ..NONE }
-}
-
-const V: u32 = 1 << 0;
-const H: u32 = 1 << 1;
-const GAMMA: u32 = 1 << 2;
-const ALPHA: u32 = 1 << 3;
-const Q: u32 = 1 << 4;
-const FUEL: u32 = 1 << 15;
-const DELTA_E: u32 = 1 << STATES;
-const PHI: u32 = 1 << (STATES + 1);
-const W_GUST: u32 = 1 << (STATES + 2);
-const U_GUST: u32 = 1 << (STATES + 3);
-const GUST: u32 = W_GUST | U_GUST;
-const ETAS: u32 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
-const RATES: u32 = ETAS << 1;
-const ELASTIC: u32 = ETAS | RATES;
-/// Speed and incidence relative to moving air.
-const STREAM: u32 = V | GAMMA | ALPHA | GUST;
-/// What the air at the engine's inlet depends on; on the pitch rate if its terms count.
-const INLET: u32 = STREAM | H | Q | ELASTIC | FUEL;
-/// What the aerodynamic forces depend on; on the fuel ratio through the plume under the aft-body.
-const AERODYNAMIC: u32 = INLET | DELTA_E | PHI;
-
-const ROW: Variable = Variable {
-    name: "",
-    description: "",
-    kind: Kind::Real(ONE),
-    role: Role::Output,
-    range: None,
-    dependencies: NONE,
-    get: |_| 0.0,
-    set: None,
-};
-
-const fn input(
-    index: usize,
-    name: &'static str,
-    unit: Unit,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-    set: fn(&mut Flight, f64),
-) -> Variable {
-    Variable {
-        name,
-        description,
-        kind: Kind::Real(unit),
-        role: Role::Input(index),
-        get,
-        set: Some(set),
-        ..ROW
-    }
-}
-
-const fn output(
-    name: &'static str,
-    unit: Unit,
-    description: &'static str,
-    dependencies: Dependencies,
-    get: fn(&Flight) -> f64,
-) -> Variable {
-    Variable { name, description, kind: Kind::Real(unit), dependencies, get, ..ROW }
-}
-
-const fn output_state(
-    index: usize,
-    name: &'static str,
-    unit: Unit,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-) -> Variable {
-    let dependencies = constant(1 << index);
-    let kind = Kind::Real(unit);
-    Variable { name, description, kind, role: Role::OutputState(index), dependencies, get, ..ROW }
-}
-
-const fn local_state(
-    index: usize,
-    name: &'static str,
-    unit: Unit,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-) -> Variable {
-    let kind = Kind::Real(unit);
-    Variable { name, description, kind, role: Role::LocalState(index), get, ..ROW }
-}
-
-const fn derivative(
-    index: usize,
-    name: &'static str,
-    unit: Unit,
-    dependencies: Dependencies,
-    get: fn(&Flight) -> f64,
-) -> Variable {
-    Variable {
-        name,
-        description: "Time derivative of the state",
-        kind: Kind::Real(unit),
-        role: Role::Derivative(index),
-        dependencies,
-        get,
-        ..ROW
-    }
-}
-
-const fn parameter(
-    name: &'static str,
-    kind: Kind,
-    range: Option<[f64; 2]>,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-    set: fn(&mut Flight, f64),
-) -> Variable {
-    Variable { name, description, kind, role: Role::Parameter, range, get, set: Some(set), ..ROW }
-}
-
-const fn calculated(
-    name: &'static str,
-    unit: Unit,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-) -> Variable {
-    Variable { name, description, kind: Kind::Real(unit), role: Role::Calculated, get, ..ROW }
-}
 
 fn shown(flight: &Flight, read: impl FnOnce(&Sample) -> f64) -> f64 {
     flight.sample().map_or(0.0, read)
@@ -181,38 +19,9 @@ fn omega(flight: &Flight, mode: usize) -> f64 {
     flight.vehicle().map_or(0.0, |vehicle| vehicle.omega[mode])
 }
 
-const CONFIGURATION: Kind = Kind::Enumeration(
-    "Configuration",
-    &[
-        ("Rigid", 1, "Rigid body, 5 states"),
-        ("EvenMassBeam", 2, "Flexible beam, mass spread evenly, 11 states"),
-        ("SloshBeam", 3, "Flexible beam with sloshing propellant, 15 states"),
-    ],
-);
-const AERO_SETS: &[(&str, i32, &str)] = &[
-    (
-        "xu2015",
-        1,
-        "parker2007 moved as little as possible towards Tables 2 and 3 of Xu, Huang, Cai 2015",
-    ),
-    ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
-    ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
-    ("own", 4, "Coefficients that this FMU was built with"),
-];
-/// The last one only where there is one.
-const AERO: Kind =
-    Kind::Enumeration("Aero", AERO_SETS.split_at(AERO_SETS.len() - OWN.is_none() as usize).0);
-const INPUT_MODE: Kind = Kind::Enumeration(
-    "InputMode",
-    &[
-        ("DeviationFromTrim", 1, "Inputs are added to the trim controls"),
-        ("Absolute", 2, "Inputs are the controls themselves"),
-    ],
-);
-
 /// All variables.
 #[rustfmt::skip]
-pub static TABLE: [Variable; 112] = [
+pub static TABLE: [Variable; 114] = [
     input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
     input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
@@ -298,6 +107,8 @@ pub static TABLE: [Variable; 112] = [
     calculated("slope1_imu", SLOPE, "Slope of the first flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 0)),
     calculated("slope2_imu", SLOPE, "Slope of the second flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 1)),
     calculated("slope3_imu", SLOPE, "Slope of the third flexible mode at the IMU per nose deflection, nose-down positive", |f| at_imu(f, 1, 2)),
+    calculated("mass_centre", METRE, "Station of the mass centre at the start, aft of the nose", |f| f.vehicle().map_or(0.0, |v| v.airframe.mass_centre)),
+    calculated("pitch_inertia", INERTIA_PER_WIDTH, "Pitch inertia about the mass centre at the start, per metre of width", |f| f.vehicle().map_or(0.0, |v| v.airframe.inertia)),
     parameter("mass_factor", Kind::Real(ONE), Some([0.5, 2.0]), "Uncertainty: factor on the density of structure and propellant; the pitch inertia stays", |f| f.parameters().build.factors.mass, |f, v| f.change(|p| p.build.factors.mass = v)),
     parameter("inertia_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the pitch inertia", |f| f.parameters().build.factors.inertia, |f, v| f.change(|p| p.build.factors.inertia = v)),
     parameter("density_factor", Kind::Real(ONE), Some([0.1, 10.0]), "Uncertainty: factor on the density of the air", |f| f.parameters().build.factors.density, |f, v| f.change(|p| p.build.factors.density = v)),

@@ -15,10 +15,25 @@ const STRUCTURE: f64 = 0.5;
 /// Strips of uniform load, one lift slope: good to a factor of two.
 const ELASTIC: f64 = std::f64::consts::LN_2;
 
-/// Movable numbers, each with its doubt: the natural logarithm of the ratio that costs 1.
-pub const MOVABLE: [(&str, f64); 25] = [
+/// The printed densities put the mass centre at 55 ft, and the text fixes the beam there; a twentieth of
+/// the length either way, m.
+const BALANCE: f64 = 1.524;
+
+/// Numbers that move by a difference; the others move by a ratio.
+const MASS_CENTRE: &str = "inertia.mass_centre_shift_m";
+pub const GAMMA_OFFSET: &str = "reference.gamma_offset_m";
+
+fn moves_by_difference(key: &str) -> bool {
+    [MASS_CENTRE, GAMMA_OFFSET].contains(&key)
+}
+
+/// Movable numbers, each with its doubt: the natural logarithm of the ratio, or the difference, that
+/// costs 1.
+pub const MOVABLE: [(&str, f64); 27] = [
     ("reference.elastic_scale", ELASTIC),
     ("inertia.i_yy_kg_m2_per_m", INERTIA),
+    (MASS_CENTRE, BALANCE),
+    (GAMMA_OFFSET, BALANCE),
     ("inertia.structural_damping.0", STRUCTURE),
     ("inertia.structural_damping.1", STRUCTURE),
     ("inertia.structural_damping.2", STRUCTURE),
@@ -77,16 +92,20 @@ impl Origin {
         Ok(origin)
     }
 
-    /// The set with every number multiplied by its ratio.
+    /// The set at a point.
     pub fn moved(&self, point: &DVector<f64>) -> Option<AeroData> {
-        self.with(&ratios(point)).try_into().ok()
+        self.with(point).try_into().ok()
     }
 
-    fn with(&self, ratios: &[f64]) -> Table {
+    fn with(&self, point: &DVector<f64>) -> Table {
         let mut table = self.table.clone();
-        for ((key, _), ratio) in MOVABLE.into_iter().zip(ratios) {
+        for ((key, doubt), x) in MOVABLE.into_iter().zip(point) {
             if let Some(value) = number(&mut table, key) {
-                *value *= ratio;
+                *value = if moves_by_difference(key) {
+                    *value + doubt * x
+                } else {
+                    *value * (doubt * x).exp()
+                };
             }
         }
         table
@@ -94,7 +113,7 @@ impl Origin {
 
     /// Values in the order of [`MOVABLE`], and as they are written once moved.
     pub fn values(&self, point: &DVector<f64>) -> Vec<[f64; 2]> {
-        let (mut from, mut to) = (self.table.clone(), self.with(&ratios(point)));
+        let (mut from, mut to) = (self.table.clone(), self.with(point));
         let pair = |(key, _)| {
             let old = number(&mut from, key).copied()?;
             let new = number(&mut to, key).copied()?;
@@ -126,14 +145,15 @@ impl Origin {
                 continue;
             }
             let unit = self.table[&section][key]["unit"].as_str().unwrap_or_default();
+            let how = if moves_by_difference(&entry) { "plus" } else { "times" };
             let factors: Vec<_> =
-                parts.iter().map(|[old, new]| format!("{:.4}", new / old)).collect();
+                parts.iter().map(|[old, new]| written_move(&entry, [*old, *new])).collect();
             let numbers: Vec<_> = parts.iter().map(|[_, new]| format!("{new:?}")).collect();
             let list = numbers.join(", ");
             let value = if parts.len() > 1 { format!("[{list}]") } else { list };
             writeln!(
                 text,
-                "{key} = {{ value = {value}, unit = \"{unit}\", source = \"parker2007 times {}: \
+                "{key} = {{ value = {value}, unit = \"{unit}\", source = \"parker2007 {how} {}: \
                  towards Tables 2 and 3, cargo ahv identify xu2015\", status = \"identified\" }}",
                 factors.join(", "),
             )?;
@@ -148,9 +168,15 @@ const HEADER: &str = "\
 # Every moved number says by how much; the others are those of parker2007.
 ";
 
-/// Factor on every number.
-pub fn ratios(point: &DVector<f64>) -> Vec<f64> {
-    MOVABLE.iter().zip(point).map(|((_, doubt), x)| (doubt * x).exp()).collect()
+/// By how much a number moved: a factor, or a difference in its unit.
+pub fn written_move(key: &str, [old, new]: [f64; 2]) -> String {
+    if moves_by_difference(key) { format!("{:.4}", new - old) } else { format!("{:.4}", new / old) }
+}
+
+/// Whether a coordinate moves its number by less than a part of it, or of its doubt.
+pub fn hardly_moves(i: usize, x: f64, least: f64) -> bool {
+    let (key, doubt) = MOVABLE[i];
+    if moves_by_difference(key) { x.abs() < least } else { (doubt * x).abs() < least.ln_1p() }
 }
 
 /// The digits that are written.
@@ -175,7 +201,7 @@ mod tests {
     fn a_moved_number_is_identified_and_says_by_how_much() {
         let origin = Origin::new().unwrap();
         let mut point = DVector::zeros(MOVABLE.len());
-        point[3] = 2f64.ln() / MOVABLE[3].1;
+        point[5] = 2f64.ln() / MOVABLE[5].1;
         let text = origin.file(&point).unwrap();
         let line = text.lines().find(|line| line.starts_with("structural_damping")).unwrap();
         assert!(line.contains("[0.02, 0.04, 0.02]"), "{line}");

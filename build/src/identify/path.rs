@@ -2,7 +2,7 @@
 
 use super::cells::{COLUMNS, Cell, cells, values};
 use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
-use super::numbers::{MOVABLE, Origin};
+use super::numbers::{MOVABLE, Origin, hardly_moves};
 use ahv::assembly::Chosen;
 use ahv::dynamics::Vehicle;
 use ahv::parameters::Parameters;
@@ -82,7 +82,7 @@ impl Model {
 
     fn trimmed(&self, set: &AeroData) -> Option<Vec<(Vehicle, Trim)>> {
         let one = |build: &Build| {
-            let chosen = Chosen::with_set(&self.data, build, set);
+            let chosen = Chosen::with_set(&self.data, build, set).sensed_as_printed().ok()?;
             let vehicle = unlimited(Vehicle::chosen(&chosen).ok()?);
             let trim = trim(&vehicle, &build.condition).ok()?;
             Some((vehicle, trim))
@@ -177,7 +177,7 @@ impl Model {
     pub fn sparse(&self, point: &Point) -> Result<Point> {
         let mut sparse = point.clone();
         loop {
-            let still = |(i, x): (usize, &f64)| (MOVABLE[i].1 * x).abs() < STAYS.ln_1p();
+            let still = |(i, x): (usize, &f64)| hardly_moves(i, *x, STAYS);
             let held: Vec<bool> = sparse.fit.point.iter().enumerate().map(still).collect();
             if held == sparse.held() {
                 return Ok(sparse);

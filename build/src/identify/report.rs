@@ -1,7 +1,7 @@
 //! What is shown of an identification.
 
 use super::knowledge::Knowledge;
-use super::numbers::{MOVABLE, ratios};
+use super::numbers::{MOVABLE, written_move};
 use super::path::{Model, Point, bends};
 use crate::table::{number, row, table};
 use anyhow::{Result, anyhow};
@@ -58,12 +58,12 @@ impl<'a> Report<'a> {
     pub fn text(&self) -> Result<String> {
         let mut text = String::from(
             "Misfit: sum over the cells of (relative error / wanted accuracy)^2\n\
-             Distance from parker2007: sum over the numbers of (ln ratio / doubt)^2\n\n\
+             Distance from parker2007: sum over the numbers of (ln ratio / doubt)^2, or (difference / doubt)^2\n\n\
              Trade-off: misfit + weight x distance is least; the knee is the first\n\
              sharpest bend of ln misfit over ln distance; \"unbound\" is the last line\n",
         );
         text += &self.trade_off();
-        text += "\nMoved numbers, factors on parker2007; a number that would move by less than 1 % stays\n";
+        text += "\nMoved numbers, factors on parker2007, or the difference of the mass centre, m; a number that would move by less than 1 % stays\n";
         text += &self.numbers();
         let weight = self.chosen.weight;
         writeln!(
@@ -97,19 +97,20 @@ impl<'a> Report<'a> {
     }
 
     fn numbers(&self) -> String {
-        let last = self.path.last().map_or_else(Vec::new, |point| ratios(&point.fit.point));
+        let origin = &self.model.origin;
+        let last = self.path.last().map_or_else(Vec::new, |point| origin.values(&point.fit.point));
         let values = self.model.origin.values(&self.chosen.fit.point);
         let mut rows = vec![row([
             "number",
             "doubt",
             "parker2007",
             "xu2015",
-            "factor",
+            "moved by",
             "decided by data",
             "unbound",
         ])];
         for (i, ((key, doubt), [old, new])) in MOVABLE.into_iter().zip(values).enumerate() {
-            let factor = if new == old { "-".to_string() } else { format!("{:.4}", new / old) };
+            let factor = if new == old { "-".to_string() } else { written_move(key, [old, new]) };
             rows.push(vec![
                 key.to_string(),
                 format!("{doubt:.2}"),
@@ -117,7 +118,7 @@ impl<'a> Report<'a> {
                 number(new),
                 factor,
                 format!("{:.0} %", 100.0 * self.knowledge.resolution[i]),
-                last.get(i).map_or(String::new(), |ratio| format!("{ratio:.2}")),
+                last.get(i).map_or(String::new(), |pair| written_move(key, *pair)),
             ]);
         }
         table(&rows)
@@ -186,7 +187,7 @@ impl<'a> Report<'a> {
                     "doubt": doubt,
                     "parker2007": old,
                     "xu2015": new,
-                    "factor": new / old,
+                    "moved_by": written_move(key, [old, new]),
                     "moved": new != old,
                     "decided_by_data": self.knowledge.resolution[i],
                 })
@@ -198,10 +199,10 @@ impl<'a> Report<'a> {
             .zip(bends(self.path))
             .enumerate()
             .map(|(i, (point, bend))| {
-                let factors: serde_json::Map<_, _> = MOVABLE
+                let numbers: serde_json::Map<_, _> = MOVABLE
                     .into_iter()
-                    .zip(ratios(&point.fit.point))
-                    .map(|((key, _), ratio)| (key.to_string(), json!(ratio)))
+                    .zip(self.model.origin.values(&point.fit.point))
+                    .map(|((key, _), [_, new])| (key.to_string(), json!(new)))
                     .collect();
                 json!({
                     "weight": point.weight,
@@ -209,7 +210,7 @@ impl<'a> Report<'a> {
                     "misfit": point.misfit(),
                     "bend": bend,
                     "knee": i == self.knee,
-                    "factors": factors,
+                    "numbers": numbers,
                 })
             })
             .collect();

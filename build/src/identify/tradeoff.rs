@@ -1,7 +1,7 @@
 //! The trade-off of `xu2015` as a report shows it.
 
 use super::knowledge::Knowledge;
-use super::numbers::{MOVABLE, ratios};
+use super::numbers::{MOVABLE, written_move};
 use super::path::{Model, Point};
 use ahv::params::AeroData;
 use anyhow::{Result, anyhow};
@@ -25,7 +25,8 @@ pub struct Moved {
     pub key: &'static str,
     pub published: f64,
     pub identified: f64,
-    pub factor: f64,
+    /// A factor, or the difference of the mass centre, m.
+    pub moved_by: String,
     /// The factor that costs 1.
     pub doubt_factor: f64,
     /// Formal standard error, as a factor.
@@ -37,7 +38,7 @@ pub struct Moved {
     /// Its relative change over that of the number.
     pub slope: f64,
     /// At the far end of the trade-off.
-    pub far_factor: f64,
+    pub far_moved_by: String,
 }
 
 /// All of it.
@@ -68,7 +69,7 @@ impl TradeOff {
         let sensitivity = model.sensitivity(&chosen)?;
         let knowledge = Knowledge::new(&sensitivity, chosen.weight)?;
         let far = model.origin.moved(&last.fit.point).ok_or_else(|| anyhow!("no such set"))?;
-        let far_factors = ratios(&last.fit.point);
+        let far_values = model.origin.values(&last.fit.point);
         let values = model.origin.values(&chosen.fit.point);
         let number = |(i, ((key, doubt), [published, identified])): (usize, (_, [f64; 2]))| {
             let (strongest, slope) = strongest(&model, &sensitivity, i);
@@ -76,13 +77,13 @@ impl TradeOff {
                 key,
                 published,
                 identified,
-                factor: identified / published,
+                moved_by: written_move(key, [published, identified]),
                 doubt_factor: f64::exp(doubt),
                 error_factor: f64::exp(doubt * knowledge.errors[i]),
                 decided_by_data: knowledge.resolution[i],
                 strongest,
                 slope: slope / doubt,
-                far_factor: far_factors[i],
+                far_moved_by: written_move(key, far_values[i]),
             }
         };
         Ok(Self {

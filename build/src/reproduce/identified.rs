@@ -4,10 +4,6 @@ use super::fit_errors::FitErrors;
 use super::markdown::{escape, percent, table, value};
 use crate::identify::{Moved, TradeOff};
 
-fn factor(factor: f64) -> String {
-    format!("{factor:.3}")
-}
-
 /// Which numbers of `xu2015` moved, and what more would have cost.
 pub fn trade_off(of: &TradeOff) -> String {
     let (knee, end) = (&of.places[of.knee], &of.places[of.places.len() - 1]);
@@ -29,17 +25,17 @@ pub fn trade_off(of: &TradeOff) -> String {
         value(of.chosen.misfit),
     );
     let (moved, still): (Vec<_>, Vec<_>) =
-        of.numbers.iter().partition(|number| number.factor != 1.0);
+        of.numbers.iter().partition(|number| number.identified != number.published);
     let row = |number: &&Moved| {
         [
             number.key.to_string(),
             value(number.published),
             value(number.identified),
-            factor(number.factor),
+            number.moved_by.clone(),
             format!("×/÷ {:.2}", number.doubt_factor),
             format!("×/÷ {:.3}", number.error_factor),
             format!("{:.0} %", 100.0 * number.decided_by_data),
-            factor(number.far_factor),
+            number.far_moved_by.clone(),
             format!("{} by {}", number.strongest, percent(0.01 * number.slope)),
         ]
     };
