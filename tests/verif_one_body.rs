@@ -15,7 +15,6 @@ use ahv::modes::MODES;
 use ahv::trim::{Trim, trim};
 use ahv::vehicle::{Build, Configuration, Data};
 use explicit::beam::Beam;
-use explicit::books::Wanted;
 use explicit::elastic::Elastic;
 use explicit::flight::{Directions, Explicit};
 use model::{AERO_SETS, assert_close, build, data};
@@ -86,17 +85,6 @@ fn cases(stiffness: f64) -> Vec<Build> {
     cases
 }
 
-fn wanted(build: &Build) -> Wanted {
-    Wanted {
-        fuel_fraction: build.fuel_fraction,
-        slosh_frequency: build.slosh_frequency,
-        slosh_damping: build.slosh_damping,
-        inertia_factor: build.factors.inertia,
-        shift_m: build.factors.mass_centre_shift_m,
-        pitch_rate: build.factors.pitch_rate,
-    }
-}
-
 /// Calls `f` with every case that flies; the others must be few and say why.
 fn for_all(stiffness: f64, mut f: impl FnMut(&Build, &Vehicle, &Trim)) {
     let (data, cases) = (data(), cases(stiffness));
@@ -142,7 +130,7 @@ fn real_pair(values: &[Complex<f64>]) -> [f64; 2] {
 }
 
 fn explicit<'a>(data: &'a Data, build: &Build, directions: Directions) -> Explicit<'a> {
-    Explicit::new(data, build.aero, &wanted(build), &build.condition, directions)
+    Explicit::new(data, build.aero, &build.into(), &build.condition, directions)
 }
 
 /// Both short-period poles, both real zeros for either flight-path angle, and what sloshes among them;
@@ -164,7 +152,10 @@ fn compare(directions: Directions, [real, sloshing]: [f64; 2]) {
             // A pair is real, fast and among those compared.
             let [right, left] = real_pair(&expected);
             assert!(right > 1.0 && left < -1.0, "{name}: {what} {expected:?}");
-            let (pairs, reals): (Vec<_>, Vec<_>) = expected.iter().partition(|e| is_pair(e));
+            let (pairs, reals): (Vec<Complex<f64>>, Vec<Complex<f64>>) =
+                expected.iter().partition(|e| is_pair(e));
+            let sloshes = pairs.iter().filter(|pair| pair.norm() > SLOWEST_RAD_PER_S).count();
+            assert_eq!(sloshes, 4, "{name}: {what} {expected:?}");
             for (expected, tolerance) in [(reals, real), (pairs, sloshing)] {
                 let off = farthest(&found, &expected);
                 assert!(

@@ -1,6 +1,7 @@
 //! Mass books: what is where, from the data files alone.
 
 use ahv::params::{AeroData, TankData, VehicleData};
+use ahv::vehicle::Build;
 use std::f64::consts::PI;
 
 /// What is asked of a vehicle.
@@ -16,6 +17,19 @@ pub struct Wanted {
     pub shift_m: f64,
     /// Part of the strips' answer to the pitch rate that counts.
     pub pitch_rate: f64,
+}
+
+impl From<&Build> for Wanted {
+    fn from(build: &Build) -> Self {
+        Self {
+            fuel_fraction: build.fuel_fraction,
+            slosh_frequency: build.slosh_frequency,
+            slosh_damping: build.slosh_damping,
+            inertia_factor: build.factors.inertia,
+            shift_m: build.factors.mass_centre_shift_m,
+            pitch_rate: build.factors.pitch_rate,
+        }
+    }
 }
 
 /// Liquid of one tank that sloshes, and the rest of it.
