@@ -177,6 +177,23 @@ fn verif_directions_that_the_equations_leave_out_matter_little() {
     compare(Directions::Plane, [PLANE_MOTION, PLANE_SLOSH]);
 }
 
+/// Both short-period poles of the beam as it is: of the library, of the rigid body, of all nodes.
+fn bending_poles(data: &Data, build: &Build, vehicle: &Vehicle, trim: &Trim) -> [[f64; 3]; 2] {
+    let explicit = explicit(data, build, Directions::Plane);
+    let beam = Beam::new(&data.vehicle, &explicit.books, ELEMENTS, 1.0);
+    // The point of linearisation is the library's.
+    let per_eta = vehicle.airframe.elastic.per.map(|[per_eta, _]| per_eta[INCIDENCE]);
+    let turned: f64 = (0..MODES).map(|k| per_eta[k] * trim.state[RIGID + 2 * k]).sum();
+    let steady = [trim.state[3] + turned, trim.control[0], trim.control[1]];
+    let mut set = data.aero(build.aero).clone();
+    set.reference.elastic_scale.value *= build.factors.elastic;
+    let rate = build.factors.pitch_rate;
+    let bending = Elastic::new(&explicit, &beam, (&data.vehicle, &set), steady, rate);
+    let rigid = real_pair(&explicit.linear(None).poles());
+    let found = real_pair(&Linear::new(vehicle, &trim.state, &trim.control).poles());
+    [0, 1].map(|k| [found[k], rigid[k], bending.pole(rigid[k])])
+}
+
 #[test]
 fn verif_the_beam_as_it_is_flies_as_all_its_nodes_do() {
     let data = data();
@@ -184,24 +201,27 @@ fn verif_the_beam_as_it_is_flies_as_all_its_nodes_do() {
         if build.slosh_damping != SLOSH_DAMPINGS[1] {
             return;
         }
-        let name = name(build);
-        let explicit = explicit(&data, build, Directions::Plane);
-        let beam = Beam::new(&data.vehicle, &explicit.books, ELEMENTS, 1.0);
-        // The point of linearisation is the library's.
-        let per_eta = vehicle.airframe.elastic.per.map(|[per_eta, _]| per_eta[INCIDENCE]);
-        let turned: f64 = (0..MODES).map(|k| per_eta[k] * trim.state[RIGID + 2 * k]).sum();
-        let steady = [trim.state[3] + turned, trim.control[0], trim.control[1]];
-        let set = data.aero(build.aero);
-        let rate = build.factors.pitch_rate;
-        let bending = Elastic::new(&explicit, &beam, (&data.vehicle, set), steady, rate);
-
-        let rigid = real_pair(&explicit.linear(None).poles());
-        let found = real_pair(&Linear::new(vehicle, &trim.state, &trim.control).poles());
-        for (found, rigid) in found.into_iter().zip(rigid) {
-            assert_close(&name, found, rigid, BENDING);
-            assert_close(&name, found, bending.pole(rigid), BENDING_BODY);
+        for [found, rigid, bending] in bending_poles(&data, build, vehicle, trim) {
+            assert_close(&name(build), found, rigid, BENDING);
+            assert_close(&name(build), found, bending, BENDING_BODY);
         }
     });
+}
+
+#[test]
+fn verif_the_air_answers_to_bending_by_the_elastic_factor_alone() {
+    let data = data();
+    for aero in AERO_SETS {
+        for elastic in [0.0, 1.5] {
+            let factors = Factors { elastic, ..Factors::default() };
+            let build = Build { aero, factors, ..build(Configuration::SloshBeam) };
+            let vehicle = Vehicle::new(&data, &build).unwrap();
+            let trim = trim(&vehicle, &build.condition).unwrap();
+            for [found, _, bending] in bending_poles(&data, &build, &vehicle, &trim) {
+                assert_close(&format!("{aero:?}, {elastic}"), found, bending, BENDING_BODY);
+            }
+        }
+    }
 }
 
 #[test]
