@@ -14,6 +14,7 @@
 //! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
+//! | [`choking`] | how much fuel the burner can still take | NACA Report 1135 |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |
 //! | [`exponential`], [`decoupling`], [`blocks`] | the oscillators exactly, the rest as a polynomial | knows no aircraft |
@@ -33,6 +34,7 @@ pub mod atmosphere;
 pub mod beam;
 pub mod blocks;
 pub mod burn;
+pub mod choking;
 pub mod decoupling;
 pub mod dop853;
 pub mod dynamics;
