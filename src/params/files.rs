@@ -272,4 +272,7 @@ pub struct EnvelopeData {
     pub mach: Quantity<[f64; 2]>,
     /// Altitude, m.
     pub altitude_m: Quantity<[f64; 2]>,
+    /// Least equivalence ratio that can still be added before the burner chokes; no limit if not
+    /// given.
+    pub choking_margin: Option<Quantity>,
 }
