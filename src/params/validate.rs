@@ -13,6 +13,8 @@ const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
 const SHIFTS: [f64; 2] = [-100.0, 100.0];
 /// A surface steeper than 45 deg is no slender body.
 const STEEPEST: [f64; 2] = [0.0, core::f64::consts::FRAC_PI_4];
+/// Equivalence ratios beyond are no matter of tolerance.
+const MARGIN: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
 /// A data file that can be read and checked.
 pub trait DataFile: DeserializeOwned {
@@ -211,6 +213,12 @@ impl DataFile for AeroData {
         check.increasing("envelope.alpha_rad", &self.envelope.alpha_rad.value)?;
         check.increasing("envelope.mach", &self.envelope.mach.value)?;
         check.increasing("envelope.altitude_m", &self.envelope.altitude_m.value)?;
+        if let Some(margin) = &self.envelope.choking_margin {
+            let value = margin.value;
+            check.that(MARGIN.contains(&value), "envelope.choking_margin", || {
+                format!("{value} must lie in {MARGIN:?}")
+            })?;
+        }
         check.positive("reference.area_m2_per_m", self.reference.area_m2_per_m.value)?;
         check.positive("reference.chord_m", self.reference.chord_m.value)?;
         check.positive("inertia.i_yy_kg_m2_per_m", self.inertia.i_yy_kg_m2_per_m.value)?;
