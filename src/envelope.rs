@@ -28,10 +28,12 @@ pub struct Limited {
 }
 
 impl Limited {
-    /// Distance to the nearer limit over the width of the range; negative outside.
+    /// Distance to the nearer limit over the width of the range, if it ends at both sides; negative
+    /// outside.
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
-        f64::min(self.value - min, max - self.value) / (max - min)
+        let width = if max == f64::INFINITY { 1.0 } else { max - min };
+        f64::min(self.value - min, max - self.value) / width
     }
 }
 
