@@ -4,7 +4,7 @@
 mod model;
 
 use ahv::burn::Burn;
-use ahv::dynamics::FUEL;
+use ahv::dynamics::{FUEL, GUSTS};
 use ahv::error::Error;
 use ahv::flight::Flight;
 use ahv::intake::Intake;
@@ -159,7 +159,7 @@ fn verif_what_the_equations_of_burning_leave_out_is_small() {
     let vehicle = flight.vehicle().unwrap();
     let burn: &Burn = vehicle.burn.as_ref().unwrap();
     let x = flight.trim().unwrap().state;
-    let rate = -vehicle.derivatives(&x, &[0.2, 1.5], 0.0)[FUEL];
+    let rate = -vehicle.derivatives(&x, &[0.2, 1.5], [0.0; GUSTS])[FUEL];
     assert!(rate < 10.0, "{rate} kg/(m s)");
     let size = 1e-3 * vehicle.fuel;
     for part in [0.99, 0.75, 0.5, 0.25, 0.1, 0.02] {
