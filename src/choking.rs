@@ -124,6 +124,7 @@ impl Choking {
 
     /// Behind the weak oblique shock that turns a stream by the angle of tangent `tan`; `None` if it
     /// is detached or the stream not supersonic.
+    #[inline]
     fn shock<S: Scalar>(&self, ahead: Stream<S>, tan: S) -> Option<Stream<S>> {
         let (gamma, square) = (self.gamma, ahead.mach2);
         // Eq. (138), solved for the tangent of the turn, is a cubic in the cotangent of the shock's
@@ -147,6 +148,7 @@ impl Choking {
     }
 
     /// A stagnation temperature over that at the throat, to the power of eq. (80).
+    #[inline]
     fn powered(&self, total: f64) -> f64 {
         let cube = total * total * total;
         if self.power == 6.0 { cube * cube } else { libm::pow(total, self.power) }
@@ -199,6 +201,7 @@ impl Choking {
 
 /// Largest root of x^3 + b x^2 + c x + d, with b and d not negative, and the slope there; `None`
 /// unless all three are real and c is negative.
+#[inline]
 fn largest_root([b, c, d]: [f64; 3]) -> Option<(f64, f64)> {
     let third = b / 3.0;
     let radius2 = third * third - c / 3.0;
