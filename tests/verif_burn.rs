@@ -20,8 +20,8 @@ use nalgebra::{Matrix5, SymmetricEigen};
 const INTERPOLATED: f64 = 6e-5;
 /// A kind that is no larger is there by rounding: without liquid no mode moves the body rigidly.
 const NOTHING: f64 = 1e-9;
-/// Of a frequency between two levels.
-const FREQUENCY: f64 = 5e-6;
+/// Of a frequency between two levels; that of the liquid in nearly empty tanks needs half of it.
+const FREQUENCY: f64 = 1e-5;
 /// Of a pole of the vehicle between two levels, over its frequency and 1 rad/s.
 const POLE: f64 = 5e-6;
 /// Two ways to the same vehicle at a level: rounding, as eigenvectors have it.

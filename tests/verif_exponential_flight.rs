@@ -13,8 +13,8 @@ use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
 use ahv::linear::Linear;
 use ahv::modes::MODES;
 use ahv::trim::Trim;
-use ahv::vehicle::{AeroSet, Configuration};
-use model::{CONFIGURATIONS, builds, data, distance, flight};
+use ahv::vehicle::Configuration;
+use model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight};
 use proptest::prelude::*;
 
 /// How well the coordinates go there and back, and L meets the Jacobian, in typical sizes.
@@ -167,8 +167,8 @@ proptest! {
 fn verif_what_rests_arrives_at_once_however_long_the_step() {
     // So well trimmed that the acceleration left, if any, is below the last digit of the speed.
     let mut resting = 0;
-    for altitude in (0..8).map(|i| 25_900.0 + 100.0 * f64::from(i)) {
-        for aero in [AeroSet::Xu2015, AeroSet::ShockExpansion] {
+    for altitude in (0..30).map(|i| 25_000.0 + 100.0 * f64::from(i)) {
+        for aero in AERO_SETS {
             let mut flight = Flight::new().unwrap();
             flight.change(|parameters| {
                 parameters.build.configuration = Configuration::Rigid;

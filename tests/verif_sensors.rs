@@ -21,20 +21,20 @@ const CONTROL: [f64; 2] = [0.1, 0.3];
 const GUSTS: [Gust; 4] = [[0.0, 0.0], [25.0, 0.0], [0.0, -40.0], [-12.0, 30.0]];
 /// Nodes of the beam on which sensors are put, out of 500.
 const NODES: [[usize; 2]; 4] = [[275, 0], [0, 500], [50, 275], [500, 450]];
-/// Instants before and after, and their spacing, s: the fastest mode turns by a fifth of a radian.
+/// Instants before and after, and their spacing, s: the fastest mode turns by a tenth of a radian.
 const HALF: usize = 4;
-const SPACING_S: f64 = 2e-3;
+const SPACING_S: f64 = 1e-3;
 /// Weights of differences of eighth order, first and second (Fornberg 1988, table 1).
 const FIRST: [f64; HALF] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 const SECOND: [f64; HALF + 1] = [-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0];
 /// Of angles, rad, and pitch rates, rad/s: roundings of 10 m over a millisecond and the speed.
 const ANGLE: f64 = 1e-11;
-/// Of load factors: roundings of 10 m over the square of a millisecond, 1e-9 m/s^2 each.
-const LOAD_FACTOR: f64 = 3e-9;
+/// Of load factors: roundings of 1e-14 m, as the extrapolation leaves them, over the square of the spacing.
+const LOAD_FACTOR: f64 = 2e-8;
 /// While fuel burns the mass centre creeps through the body by 1 mm/s (errata, 22), and shapes turn.
 const CREEP_ANGLE: f64 = 1e-6;
 const CREEP_LOAD_FACTOR: f64 = 1e-4;
-/// Central differences of fourth order.
+/// Central differences of fourth order, with steps of a hundredth of the typical size.
 const DIFFERENCES: f64 = 1e-7;
 
 /// A vehicle with sensors on nodes, and the displacements of these in each mode: nose first, deflection and
@@ -305,6 +305,7 @@ fn verif_a_sensor_off_the_body_is_refused_by_name_value_and_range() {
 #[test]
 fn verif_sensors_have_exact_derivatives() {
     const KNOWN: usize = STATES + 4;
+    const STEP: f64 = 0.01;
     for fuel_burn in [false, true] {
         let burning = Build { fuel_burn, ..build(Configuration::SloshBeam) };
         let case = Case::new(&burning, NODES[2]);
@@ -321,7 +322,7 @@ fn verif_sensors_have_exact_derivatives() {
                 i => GUSTS[3][i - STATES - 2],
             });
             let at = |steps: f64| {
-                let moved = |i: usize| known[i] + if i == k { 0.03 * steps * size(k) } else { 0.0 };
+                let moved = |i: usize| known[i] + if i == k { STEP * steps * size(k) } else { 0.0 };
                 let x = std::array::from_fn(moved);
                 let u = std::array::from_fn(|i| moved(STATES + i));
                 let gust = std::array::from_fn(|i| moved(STATES + 2 + i));
@@ -339,7 +340,7 @@ fn verif_sensors_have_exact_derivatives() {
             assert_eq!(re, at(0.0));
             let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(at);
             for i in 0..re.len() {
-                let change = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * 0.03);
+                let change = (8.0 * (a[i] - b[i]) - (c[i] - d[i])) / (12.0 * STEP);
                 let off = (eps[i] * size(k) - change).abs();
                 assert!(off < DIFFERENCES, "{fuel_burn}: {i} by {k}: {off:.1e}, {change}");
             }
