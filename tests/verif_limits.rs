@@ -92,6 +92,18 @@ fn verif_liquid_that_stays_within_its_depth_flies_on() {
 }
 
 #[test]
+fn verif_a_fast_engine_is_not_too_far_from_choking() {
+    // At Mach 10 the burner takes more than its air can burn: the margin has no upper limit.
+    let mut flight = Flight::new().unwrap();
+    for (name, value) in [("aero", 3.0), ("mach0", 10.5), ("altitude0", 28_000.0)] {
+        set(&mut flight, name, value);
+    }
+    flight.evaluate().unwrap_or_else(|error| panic!("{error}"));
+    assert!(find("choking_margin").unwrap().get(&flight) > 1.0);
+    flight.advance(0.1).unwrap_or_else(|error| panic!("{error}"));
+}
+
+#[test]
 fn verif_a_state_beyond_the_depth_is_refused_also_from_outside() {
     for (tank, name) in NAMES.into_iter().enumerate() {
         let (mut flight, depth) = thrown(tank, 0.1, false);
