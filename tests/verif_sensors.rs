@@ -67,9 +67,7 @@ impl Case {
         let start = condition.start(&self.vehicle.atmosphere);
         let mut x: State = std::array::from_fn(|i| start[i] + 2.0 * NOMINAL[i]);
         x[4] = 0.08;
-        for i in RIGID + 2 * self.vehicle.modes..STATES - 1 {
-            x[i] = 0.0;
-        }
+        x[RIGID + 2 * self.vehicle.modes..].fill(0.0);
         x[STATES - 1] = 0.8 * self.vehicle.fuel;
         x
     }
@@ -134,7 +132,7 @@ impl Case {
     fn expected(&self, start: &State, gust: Gust) -> Shown {
         let flown = self.flown(start, gust);
         let of =
-            |sensor: usize, k: usize, step: isize| flown[HALF.strict_add_signed(step)][sensor][k];
+            |sensor: usize, k: usize, step: isize| flown[HALF.wrapping_add_signed(step)][sensor][k];
         let rate = |sensor: usize, k: usize| {
             let pairs = FIRST.iter().zip(1..);
             let rate = pairs.map(|(c, n)| c * (of(sensor, k, n) - of(sensor, k, -n))).sum::<f64>();
