@@ -15,7 +15,7 @@
 //! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
-//! | [`choking`] | how far the burner is from thermal choking | |
+//! | [`choking`] | how much fuel the burner can still take | NACA Report 1135 |
 //! | [`factors`] | what may be uncertain | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 //! | [`integrate`], [`dop853`] | one interval, landing exactly | knows no aircraft |

@@ -135,3 +135,34 @@ fn verif_wrong_air_and_coefficients_are_refused() {
     let message = AeroData::parse("aero.toml", &text).unwrap_err().to_string();
     assert!(message.contains("envelope.mach: [16.0, 11.0] must increase"), "{message}");
 }
+
+#[test]
+fn verif_a_choking_margin_is_a_plain_number_between_minus_one_and_one() {
+    let margin = "choking_margin = { value = 0.0, unit = \"1\"";
+    assert!(SHOCK_EXPANSION.text.contains(margin));
+    let with = |value: &str, unit: &str| {
+        let new = format!("choking_margin = {{ value = {value}, unit = \"{unit}\"");
+        AeroData::parse("aero.toml", &SHOCK_EXPANSION.text.replacen(margin, &new, 1))
+    };
+    for value in ["-1.0", "0.05", "1.0"] {
+        let read = with(value, "1").unwrap().envelope.choking_margin.unwrap();
+        assert_eq!(read.value, value.parse().unwrap());
+    }
+    for (value, unit, told) in [
+        ("-1.5", "1", "envelope.choking_margin: -1.5 must lie in -1.0..=1.0"),
+        ("1.01", "1", "envelope.choking_margin: 1.01 must lie in"),
+        ("nan", "1", "envelope.choking_margin: NaN must lie in"),
+        ("inf", "1", "envelope.choking_margin: inf must lie in"),
+        ("0.0", "rad", "envelope.choking_margin: the unit is rad, must be 1"),
+    ] {
+        let message = with(value, unit).unwrap_err().to_string();
+        assert!(message.contains(told), "{message}");
+    }
+    for set in [XU2015, PARKER2007] {
+        assert!(
+            AeroData::embedded(&set).unwrap().envelope.choking_margin.is_none(),
+            "{}",
+            set.name
+        );
+    }
+}

@@ -3,8 +3,8 @@
 
 mod model;
 
-use ahv::dynamics::{NOMINAL, STATES};
 use ahv::dynamics::CONTROLS;
+use ahv::dynamics::{NOMINAL, STATES};
 use ahv::flight::{Flight, INPUTS, Snapshot};
 use ahv::variables::{Role, TABLE, Variable};
 use ahv::vehicle::{AeroSet, Configuration};
@@ -38,7 +38,9 @@ fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
     let burns = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
     flight.change(|p| p.build.fuel_burn = burns);
     // The pitch rate matters to the loads only where its terms count.
-    flight.change(|p| p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 });
+    flight.change(|p| {
+        p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 }
+    });
     flight.initialise().unwrap();
     let states = flight.vehicle().unwrap().states();
     let mut snapshot = flight.snapshot();

@@ -58,8 +58,7 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
             for i in std::iter::once(4).chain(RIGID..vehicle.states()) {
                 assert!(deviation(moving[i], seen[i], 10.0) < TURNED, "{gust:?} m/s, state {i}");
             }
-            let [a, b] =
-                [(&x, gust), (&still, STILL)].map(|(x, w)| vehicle.both(x, &CONTROL, w).1);
+            let [a, b] = [(&x, gust), (&still, STILL)].map(|(x, w)| vehicle.both(x, &CONTROL, w).1);
             assert!(deviation(a.alpha_probe, b.alpha_probe, 0.01) < TURNED);
             assert!(deviation(a.imu.n_x, b.imu.n_x, 1.0) < TURNED);
             assert!(deviation(a.loads.mach, b.loads.mach, 0.0) < TURNED);

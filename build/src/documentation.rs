@@ -24,23 +24,27 @@ the path, plus the centrifugal relief of the curved earth.</li>
 <li>Pitch: moment of air and thrust about the mass centre, over the pitch inertia.</li>
 <li>Every kept mode: a damped oscillator driven by its generalised aerodynamic force. The modes are
 those of the free beam together with the sloshing masses on their springs, so the force of the
-propellant is inside them; the dampers of the sloshing masses couple them.</li>
-<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel
-ratio and the modal coordinates with their rates.</li>
+propellant is inside them; the dampers of the sloshing masses couple them. Pitch, bending and slosh
+share one mass matrix: mass centre and pitch inertia are those of the coefficient set.</li>
+<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in the incidence of the body, which
+sloshing liquid turns, in elevator, fuel ratio and the bending with its rates. Terms in the pitch rate, of
+strip theory, count with <code>pitch_rate_factor</code>.</li>
+<li>Sensors move with a point of the bent body: its flight path, attitude and accelerations are those of
+the mass centre plus what pitch rate, bending and slosh add there.</li>
 <li>In air that moves, incidence, airspeed and Mach number are those relative to the air, and lift
 and drag stand across and along the path through it. The gust is the same along the vehicle.</li>
 <li>With <code>fuel_burn</code> the engine takes its fuel from the tanks; mass, mass centre and modes follow.</li>
 </ul>
 <p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
-the master gives for the step; the states are integrated with an explicit
-Runge-Kutta method of order 8 that controls its error and ends exactly on the communication
-point.</p>";
+the master gives for the step. The states are integrated by an exponential method, which moves the
+decoupled oscillators exactly, or, while inputs move within the step, by an explicit Runge-Kutta method of
+order 8. Both control their error and end exactly on the communication point.</p>";
 
 const WHAT: &str = "\
 <p><img src=\"../model.png\" alt=\"Side view with two tanks; below, the first bending mode\" \
 width=\"300\"/></p>
-<p>Inputs are elevator, fuel ratio and the air's vertical velocity; outputs are the rigid-body motion, the flexible and sloshing
-modes and the loads. The fuselage is a free-free beam of finite elements; two tanks carry sloshing
+<p>Inputs are elevator, fuel ratio and the air's vertical and horizontal velocity; outputs are the
+rigid-body motion, the flexible and sloshing modes, the loads and what sensors see. The fuselage is a free-free beam of finite elements; two tanks carry sloshing
 masses that take part in its modes. All numbers are inside the library: it reads no file, opens no
 window and needs nothing but the system.</p>";
 
@@ -137,7 +141,9 @@ fn limits(flight: &Flight) -> Result<String> {
         "<p>The default curve fits hold for Mach {}, altitude {} and incidence {}. Leaving this \
          region ends a step early with fmi2Discard; time and state are those of the last valid \
          instant. Controls are cut to elevator {} and fuel ratio {}. A flight condition without trim \
-         inside these limits is refused at the end of initialisation, with the limit that was hit. \
+         inside these limits is refused at the end of initialisation, with the limit that was hit. So is a \
+         sloshing mass that would leave the depth of its liquid: near empty tanks that is little. With \
+         aero = shock_expansion a flight also ends where the burner chokes. \
          Values that are not finite are refused and change nothing.</p>",
         between(envelope.mach, 1.0, ""),
         between(envelope.altitude, 1e-3, " km"),

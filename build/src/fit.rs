@@ -195,7 +195,7 @@ fn file(
         text,
         "# Least squares at Mach {}, {} m: alpha {} deg, delta_e {} deg,\n\
          # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n\
-         # The fit knows no choking: where the burner would be choked, it extrapolates.\n#",
+         # The fit knows no choking: flights beyond the choking margin of the envelope are refused.\n#",
         default.mach.value,
         default.altitude_m.value,
         degrees(alpha),
@@ -246,5 +246,7 @@ fn file(
     text.push_str(&copied("alpha_rad", &published.envelope.alpha_rad));
     text.push_str(&copied("mach", &published.envelope.mach));
     text.push_str(&copied("altitude_m", &published.envelope.altitude_m));
+    let source = "the fit is made where the burner is not choked";
+    text.push_str(&line("choking_margin", "0.0", "1", source, "derived"));
     Ok(text)
 }

@@ -281,6 +281,7 @@ pub struct EnvelopeData {
     pub mach: Quantity<[f64; 2]>,
     /// Altitude, m.
     pub altitude_m: Quantity<[f64; 2]>,
-    /// Least fuel ratio that is left to thermal choking of the burner.
+    /// Least equivalence ratio that can still be added before the burner chokes; no limit if not
+    /// given.
     pub choking_margin: Option<Quantity>,
 }

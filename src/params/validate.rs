@@ -9,8 +9,12 @@ use serde::de::DeserializeOwned;
 const SHARES_ADD_UP: f64 = 1e-9;
 /// Below, three bending modes have no nodes to live on; above, no one needs it.
 const ELEMENTS: std::ops::RangeInclusive<u32> = 8..=20_000;
+/// Largest distance, m, by which a place along the body is corrected.
+const SHIFTS: [f64; 2] = [-100.0, 100.0];
 /// A surface steeper than 45 deg is no slender body.
 const STEEPEST: [f64; 2] = [0.0, core::f64::consts::FRAC_PI_4];
+/// Equivalence ratios beyond are no matter of tolerance.
+const MARGIN: std::ops::RangeInclusive<f64> = -1.0..=1.0;
 
 /// A data file that can be read and checked.
 pub trait DataFile: DeserializeOwned {
@@ -103,6 +107,14 @@ impl DataFile for VehicleData {
         self.check_tanks(check, length)?;
         check.positive("actuation.delta_e_limit_rad", self.actuation.delta_e_limit_rad.value)?;
         check.positive("actuation.phi_limit", self.actuation.phi_limit.value)?;
+        let stations = [
+            ("default.imu_station_m", &self.default.imu_station_m),
+            ("default.probe_station_m", &self.default.probe_station_m),
+        ];
+        for (key, station) in stations {
+            let ok = (0.0..=length).contains(&station.value);
+            check.that(ok, key, || format!("{} must lie in [0, {length}]", station.value))?;
+        }
         self.check_outline(check, length)?;
         self.check_engine(check)?;
         Ok(())
@@ -201,10 +213,23 @@ impl DataFile for AeroData {
         check.increasing("envelope.alpha_rad", &self.envelope.alpha_rad.value)?;
         check.increasing("envelope.mach", &self.envelope.mach.value)?;
         check.increasing("envelope.altitude_m", &self.envelope.altitude_m.value)?;
+        if let Some(margin) = &self.envelope.choking_margin {
+            let value = margin.value;
+            check.that(MARGIN.contains(&value), "envelope.choking_margin", || {
+                format!("{value} must lie in {MARGIN:?}")
+            })?;
+        }
         check.positive("reference.area_m2_per_m", self.reference.area_m2_per_m.value)?;
         check.positive("reference.chord_m", self.reference.chord_m.value)?;
         check.positive("inertia.i_yy_kg_m2_per_m", self.inertia.i_yy_kg_m2_per_m.value)?;
         check.positive("reference.elastic_scale", self.reference.elastic_scale.value)?;
+        let lengths = [
+            ("inertia.mass_centre_shift_m", &self.inertia.mass_centre_shift_m),
+            ("reference.gamma_offset_m", &self.reference.gamma_offset_m),
+        ];
+        for (key, length) in lengths {
+            length.as_ref().map_or(Ok(()), |length| check.inside(key, length.value, SHIFTS))?;
+        }
         for ratio in self.inertia.structural_damping.value {
             check.inside("inertia.structural_damping", ratio, [0.0, 1.0])?;
         }

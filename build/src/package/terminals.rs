@@ -23,7 +23,7 @@ enum Icon {
     Output,
 }
 
-const TERMINALS: [Terminal; 5] = [
+const TERMINALS: [Terminal; 6] = [
     Terminal {
         name: "controls",
         description: "What an autopilot commands",
@@ -34,7 +34,7 @@ const TERMINALS: [Terminal; 5] = [
         name: "air",
         description: "Motion of the air",
         icon: Icon::Input,
-        variables: &["w_gust"],
+        variables: &["w_gust", "u_gust"],
     },
     Terminal {
         name: "motion",
@@ -52,7 +52,13 @@ const TERMINALS: [Terminal; 5] = [
         name: "loads",
         description: "Forces, moment and what they scale with",
         icon: Icon::Output,
-        variables: &["lift", "drag", "thrust", "moment", "mach", "qbar", "n_z"],
+        variables: &["lift", "drag", "thrust", "moment", "mach", "qbar", "n_z", "choking_margin"],
+    },
+    Terminal {
+        name: "sensors",
+        description: "What an inertial measurement unit and an incidence vane on the bent body see",
+        icon: Icon::Output,
+        variables: &["theta_imu", "q_imu", "gamma_imu", "n_z_imu", "n_x_imu", "alpha_probe"],
     },
 ];
 
