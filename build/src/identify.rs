@@ -7,6 +7,7 @@ mod knowledge;
 mod numbers;
 mod path;
 mod report;
+mod stations;
 mod tradeoff;
 
 use crate::cli::{Identified, Identify};
@@ -15,6 +16,7 @@ use ahv::params::{DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
 use report::Report;
+pub use cells::size;
 pub use tradeoff::{Moved, Place, TradeOff};
 
 pub fn run(options: &Identify) -> Result<()> {
@@ -48,7 +50,8 @@ fn xu2015(options: &Identify) -> Result<()> {
     let text = model.origin.file(&chosen.fit.point)?;
     if options.json || !options.check {
         let (path, knee) = model.path(&|_| ())?;
-        let report = Report::new(&model, &path, knee, &chosen)?;
+        let best = model.best(&chosen)?;
+        let report = Report::new(&model, &path, knee, [&chosen, &best])?;
         if options.json {
             println!("{:#}", report.json());
         } else {

@@ -72,8 +72,8 @@ pub const REASONS: [(&str, &str); 9] = [
     (
         VEHICLE,
         "one inertia, one offset of the mass centre and one set of tanks serve three columns that ask for \
-         slightly different ones. The published set has an inertia and a mass centre that no column \
-         of the tables has (erratum 3; \"Where the printed digits come from\").",
+         slightly different ones (\"Where the printed digits come from\"). The published inertia fits none of \
+         them (erratum 3).",
     ),
     (
         UNEQUAL,
@@ -165,6 +165,11 @@ fn unprinted(roots: &[Root]) -> Vec<Unprinted> {
         .filter(slosh)
         .map(|root| Unprinted { row: row(root), re: root.value.re, im: root.value.im })
         .collect()
+}
+
+/// To the digits that are printed.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
 }
 
 /// The right and the left real zero.
@@ -266,7 +271,7 @@ pub fn table3(printed: &Columns<Zeros>, points: &[Point; 3]) -> Table {
         let mut builder = Builder { cells: Vec::new(), column };
         let [right, left, _] = printed.real;
         let ours = real_zeros(zeros).map(size);
-        builder.compare(column.into(), size([right, left]), ours, VEHICLE);
+        builder.compare(column.into(), rounded(size([right, left])), ours, VEHICLE);
         means.extend(builder.cells);
     }
     Table {
