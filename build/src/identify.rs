@@ -15,8 +15,8 @@ use crate::workspace::{read_text, root, shown, write};
 use ahv::params::{DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
-use report::Report;
 pub use cells::size;
+use report::Report;
 pub use tradeoff::{Moved, Place, TradeOff};
 
 pub fn run(options: &Identify) -> Result<()> {

@@ -103,8 +103,7 @@ impl Vehicle<'_> {
 impl Laws {
     /// `slight` ends the range of "slightly".
     pub fn new(data: &Data, base: &Build, slight: f64) -> Result<Self> {
-        let base =
-            Build { configuration: Configuration::SloshBeam, fuel_fraction: 1.0, ..*base };
+        let base = Build { configuration: Configuration::SloshBeam, fuel_fraction: 1.0, ..*base };
         let vehicle = Vehicle { data, base, full: properties(data, &base)? };
         let law = |(name, held): (&'static str, Held)| -> Result<Law> {
             let level = |i| {

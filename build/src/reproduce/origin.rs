@@ -176,14 +176,15 @@ impl Origin {
         };
         let rigid = lab.point(0, INERTIA, 1.0, 0.0)?;
         let at_inertia = |inertia: f64| Case::of(kg(inertia), &lab.point(0, inertia, 1.0, 0.0)?);
-        let with_printed =
-            |column: usize| Case::of(COLUMNS[column], &lab.point(column, PRINTED_INERTIA, 1.0, 0.0)?);
+        let with_printed = |column: usize| {
+            Case::of(COLUMNS[column], &lab.point(column, PRINTED_INERTIA, 1.0, 0.0)?)
+        };
         let elastic =
             |scale: f64| Case::of(format!("× {scale}"), &lab.point(1, INERTIA, scale, 0.0)?);
-        let shift = |shift: f64| Case::of(format!("{shift} m"), &lab.point(1, INERTIA, 1.0, shift)?);
+        let shift =
+            |shift: f64| Case::of(format!("{shift} m"), &lab.point(1, INERTIA, 1.0, shift)?);
         let even = Build { configuration: Configuration::EvenMassBeam, ..*base };
-        let seen =
-            |what: &str, gamma| Case::of(what, &Point::of(Chosen::new(data, &even), gamma)?);
+        let seen = |what: &str, gamma| Case::of(what, &Point::of(Chosen::new(data, &even), gamma)?);
 
         let trim = trim(&rigid.vehicle, &base.condition)?;
         let system = &rigid.linear;
@@ -195,11 +196,18 @@ impl Origin {
         lift.a[(3, 4)] += OUTPUT;
         let mut damped = system.clone();
         damped.a[(4, 4)] += PITCH_DAMPING;
-        let lift_q =
-            lift_coefficient(&rigid.vehicle, &data.parker2007, [trim.state[0], trim.state[1]], -OUTPUT);
+        let lift_q = lift_coefficient(
+            &rigid.vehicle,
+            &data.parker2007,
+            [trim.state[0], trim.state[1]],
+            -OUTPUT,
+        );
         Ok(Self {
             rigid: Case::of(format!("published set, {}, 55 ft", kg(INERTIA)), &rigid)?,
-            inertias: [own, INERTIA, PRINTED_INERTIA].into_iter().map(at_inertia).collect::<Result<_>>()?,
+            inertias: [own, INERTIA, PRINTED_INERTIA]
+                .into_iter()
+                .map(at_inertia)
+                .collect::<Result<_>>()?,
             printed_inertia: (0..3).map(with_printed).collect::<Result<_>>()?,
             elastic: ELASTIC.into_iter().map(elastic).collect::<Result<_>>()?,
             shifts: SHIFTS.into_iter().map(shift).collect::<Result<_>>()?,

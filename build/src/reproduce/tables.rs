@@ -206,7 +206,13 @@ pub fn table1(printed: &Table1, points: &[Point; 3]) -> Table {
         }
         cells.extend(builder.cells);
     }
-    Table { number: 1, title: "Natural frequencies, rad/s", cells, unprinted: Vec::new(), means: Vec::new() }
+    Table {
+        number: 1,
+        title: "Natural frequencies, rad/s",
+        cells,
+        unprinted: Vec::new(),
+        means: Vec::new(),
+    }
 }
 
 pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
