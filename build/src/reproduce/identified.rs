@@ -45,12 +45,12 @@ pub fn trade_off(of: &TradeOff) -> String {
             number.key.to_string(),
             value(number.published),
             value(number.identified),
-            moved(number, &number.moved_by),
+            by_how_much(number, &number.moved_by),
             within(number, number.doubt),
             within(number, number.error),
             format!("{:.0} %", 100.0 * number.decided_by_data),
-            moved(number, &number.far_moved_by),
-            moved(number, &number.best_moved_by),
+            by_how_much(number, &number.far_moved_by),
+            by_how_much(number, &number.best_moved_by),
             format!("{} by {}", number.strongest, percent(0.01 * number.slope)),
         ]
     };
@@ -85,7 +85,7 @@ pub fn trade_off(of: &TradeOff) -> String {
 }
 
 /// A factor, or a difference with its sign and unit.
-fn moved(number: &Moved, by: &str) -> String {
+fn by_how_much(number: &Moved, by: &str) -> String {
     match (number.difference, by.strip_prefix('-')) {
         (false, _) => format!("× {by}"),
         (true, Some(size)) => format!("\u{2212}{size} m"),
