@@ -28,12 +28,11 @@ pub struct Limited {
 }
 
 impl Limited {
-    /// Distance to the nearer limit over the width of the range, if it ends at both sides; negative
-    /// outside.
+    /// Distance to the nearer limit over the width of the range, if it has one; negative outside.
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
-        let width = if max == f64::INFINITY { 1.0 } else { max - min };
-        f64::min(self.value - min, max - self.value) / width
+        let (nearest, width) = (f64::min(self.value - min, max - self.value), max - min);
+        if width.is_finite() { nearest / width } else { nearest }
     }
 }
 

@@ -15,9 +15,8 @@ use crate::vehicle::Data;
 #[derive(Debug, Clone)]
 pub struct Ready {
     pub vehicle: Vehicle,
-    /// Trimmed flight; without trim, the start values with zero controls.
     pub trim: Trim,
-    /// Initial state: that of the trim, moved by the offsets.
+    /// Initial state: the trim with its offsets.
     pub start: State,
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
@@ -43,20 +42,20 @@ impl Ready {
             }
             Trim { state, control: [0.0; 2] }
         };
-        let (trim, mut start) = (steady, steady.state);
+        let mut start = steady.state;
         disturb(&vehicle, &mut start, &offsets);
-        if !vehicle.holds(&start, &trim.control, [0.0; GUSTS]) {
-            return Err(start_outside(&vehicle, &start, &trim.control, parameters));
+        if !vehicle.holds(&start, &steady.control, [0.0; GUSTS]) {
+            return Err(start_outside(&vehicle, &start, &steady.control, parameters));
         }
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
-        let base = if deviation { trim.control } else { [0.0; 2] };
-        let steady = match trimmed {
+        let base = if deviation { steady.control } else { [0.0; 2] };
+        let about = match trimmed {
             true => steady,
             // Of the condition, so that a start from it flies as one with trim does.
             false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
         };
-        let method = method(&vehicle, &steady);
-        Ok(Self { vehicle, trim, start, base, method })
+        let method = method(&vehicle, &about);
+        Ok(Self { vehicle, trim: steady, start, base, method })
     }
 
     /// What is in the slot; an empty one is filled, and the state becomes the initial one.
