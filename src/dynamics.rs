@@ -83,8 +83,6 @@ struct Met<S> {
     per_speed: S,
     /// Dynamic pressure by the reference area, N/m.
     force: S,
-    /// m/s.
-    sound_speed: S,
     coefficients: Coefficients<S>,
     loads: Loads<S>,
 }
@@ -134,9 +132,8 @@ impl Vehicle {
             thrust,
             moment: thrust * self.aero.thrust_arm + force * (c_m * self.aero.chord + c_n * shift),
             normal: force * c_n,
-            axial: force * (c_d * cos - c_l * sin),
         };
-        Met { stream, per_speed, force, sound_speed: air.sound_speed, coefficients, loads }
+        Met { stream, per_speed, force, coefficients, loads }
     }
 
     /// Eq. (3): time derivatives of all states, in moving air.
@@ -215,7 +212,8 @@ impl Vehicle {
             return rates;
         }
         let modal = modal::accelerations(airframe, met, x);
-        for (i, acceleration) in modal.into_iter().enumerate().take(self.modes) {
+        // Modes that a configuration does not have stay at rest: all that drives them is zero.
+        for (i, acceleration) in modal.into_iter().enumerate() {
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
             rates[eta_dot] = acceleration;
@@ -246,7 +244,8 @@ impl Vehicle {
 
     fn choking_margin<S: Scalar>(&self, met: &Met<S>, u: &Control<S>) -> S {
         let inflow = met.coefficients.inflow;
-        self.choking.margin(met.loads.mach, inflow, met.sound_speed, u[1])
+        let sound_speed = met.stream.speed / met.loads.mach;
+        self.choking.margin(met.loads.mach, inflow, sound_speed, u[1])
     }
 
     /// Smallest and largest elevator deflection (rad) and fuel equivalence ratio.

@@ -12,7 +12,7 @@ mod tradeoff;
 
 use crate::cli::{Identified, Identify};
 use crate::workspace::{read_text, root, shown, write};
-use ahv::params::{DataFile, VehicleData};
+use ahv::params::{AeroData, DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
 pub use cells::size;
@@ -26,11 +26,21 @@ pub fn run(options: &Identify) -> Result<()> {
     }
 }
 
+const VEHICLE: &str = "src/data/vehicle.toml";
+const XU2015: &str = "src/data/aero/xu2015.toml";
+
+/// The data as the files have them now: each identification rests on what the other one wrote.
+fn data() -> Result<Data> {
+    Ok(Data {
+        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE))?)?,
+        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015))?)?,
+        ..Data::embedded()?
+    })
+}
+
 fn beam(options: &Identify) -> Result<()> {
-    let name = "src/data/vehicle.toml";
-    let before = read_text(&root().join(name))?;
-    let vehicle = VehicleData::parse("vehicle.toml", &before)?;
-    let data = Data { vehicle, ..Data::embedded()? };
+    let before = read_text(&root().join(VEHICLE))?;
+    let data = data()?;
     let model = beam::Model::new(data, beam::printed()?)?;
     let solution = model.solve()?;
     let report = beam::Report::new(&model, &solution)?;
@@ -41,11 +51,11 @@ fn beam(options: &Identify) -> Result<()> {
     } else if !options.check {
         print!("{}", report.text());
     }
-    settle(options, "beam", name, &text)
+    settle(options, "beam", VEHICLE, &text)
 }
 
 fn xu2015(options: &Identify) -> Result<()> {
-    let model = path::Model::new()?;
+    let model = path::Model::new(data()?)?;
     let chosen = model.chosen()?;
     let text = model.origin.file(&chosen.fit.point)?;
     if options.json || !options.check {
@@ -58,7 +68,7 @@ fn xu2015(options: &Identify) -> Result<()> {
             print!("{}", report.text()?);
         }
     }
-    settle(options, "xu2015", "src/data/aero/xu2015.toml", &text)
+    settle(options, "xu2015", XU2015, &text)
 }
 
 /// Writes a file of the repository, or compares it with what would be written.

@@ -5,7 +5,9 @@
 //! memory in pairs, a compiler packs them in pairs as well.
 
 use super::{Airframe, Control, Met, RIGID, State};
-use crate::aero::{ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use crate::aero::{
+    ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
+};
 use crate::modes::MODES;
 use crate::scalar::{Over, Scalar};
 use multiversion::multiversion;
@@ -30,8 +32,8 @@ pub struct Coefficients<S> {
     pub incidence: S,
     /// Incidence of the engine's inflow, rad.
     pub inflow: S,
-    /// What the air answers to the shape: the rows of [`Elastic::per`].
-    pub elastic: [S; ANSWERS],
+    /// What the air answers to bending and pitch rate in N_i, over qbar S and the modal mass, 1/kg.
+    pub forces: PerMode<S>,
 }
 
 /// Coefficients at a state in air that meets the vehicle at an incidence (rad) and a speed (of which one
@@ -66,7 +68,7 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
         elevator,
         incidence: body,
         inflow,
-        elastic,
+        forces: std::array::from_fn(|i| elastic[FORCE + i]),
     }
 }
 
@@ -90,7 +92,7 @@ pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
     add(&mut sum, thrust, &n.thrust_couple);
     for i in 0..MODES {
         let stiffness = x[RIGID + 2 * i] * airframe.stiffness[i][i];
-        sum[i] = sum[i] + met.force * (air[i] + of.elastic[FORCE + i]) - stiffness;
+        sum[i] = sum[i] + met.force * (air[i] + of.forces[i]) - stiffness;
     }
     for (k, slowed) in airframe.damping.iter().enumerate() {
         add(&mut sum, -x[RIGID + 2 * k + 1], slowed);

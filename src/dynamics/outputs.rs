@@ -20,8 +20,6 @@ pub struct Loads<S> {
     pub moment: S,
     /// Aerodynamic force normal to the body axis, N/m.
     pub normal: S,
-    /// Aerodynamic force along the body axis, aft positive, N/m.
-    pub axial: S,
 }
 
 /// What a flight shows beside its states.
@@ -54,7 +52,6 @@ impl<S: Copy> Loads<S> {
             thrust: f(self.thrust),
             moment: f(self.moment),
             normal: f(self.normal),
-            axial: f(self.axial),
         }
     }
 }

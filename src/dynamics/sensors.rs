@@ -96,7 +96,9 @@ pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
     let up = q * forward + point.w_dot - x[0] * sin_alpha;
 
     let per_weight = C::constant(1.0) / (airframe.mass * standard);
-    let along = (met.loads.thrust - met.loads.axial) * per_weight;
+    let (sin, cos) = met.stream.axis;
+    let axial = met.loads.drag * cos - met.loads.lift * sin;
+    let along = (met.loads.thrust - axial) * per_weight;
     let across = met.loads.normal * per_weight;
     let in_g = 1.0 / standard;
     let q_dot = rates[4];

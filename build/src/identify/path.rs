@@ -73,8 +73,7 @@ fn excess(value: f64, [min, max]: [f64; 2]) -> f64 {
 }
 
 impl Model {
-    pub fn new() -> Result<Self> {
-        let data = Data::embedded()?;
+    pub fn new(data: Data) -> Result<Self> {
         let default = Parameters::new(&data).build;
         let columns = COLUMNS.map(|configuration| Build { configuration, ..default }).to_vec();
         Ok(Self { cells: cells()?, origin: Origin::new()?, data, columns })

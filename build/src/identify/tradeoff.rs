@@ -6,6 +6,7 @@ use super::numbers::{MOVABLE, moves_by_difference, written_move};
 use super::path::{Model, Point};
 use super::stations::Stations;
 use ahv::params::AeroData;
+use ahv::vehicle::Data;
 use anyhow::{Result, anyhow};
 use nalgebra::DMatrix;
 use serde::Serialize;
@@ -74,7 +75,7 @@ fn place(point: &Point) -> Place {
 impl TradeOff {
     /// Follows the trade-off from end to end; `tell` hears of every place on the way.
     pub fn new(tell: &dyn Fn(&Place)) -> Result<Self> {
-        let model = Model::new()?;
+        let model = Model::new(Data::embedded()?)?;
         let (path, knee) = model.path(&|point| tell(&place(point)))?;
         let chosen = model.sparse(&path[knee])?;
         let last = path.last().ok_or_else(|| anyhow!("an empty path"))?;
