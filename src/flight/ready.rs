@@ -122,6 +122,16 @@ fn start_outside(
     let Limited { variable, value, limits: [min, max] } =
         vehicle.tightest(start, control, [0.0; GUSTS]);
     let offsets = &parameters.offsets;
+    // The flexible mode that moves the liquid of a tank most.
+    let bent = |tank: usize| {
+        let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
+        (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
+    };
+    let eta0 = match variable {
+        "slosh1" if !parameters.trim => bent(0),
+        "slosh2" if !parameters.trim => bent(1),
+        _ => None,
+    };
     let name = match variable {
         "h" => "altitude0",
         "mach" => "mach0",
@@ -129,7 +139,7 @@ fn start_outside(
         "alpha" => "alpha0",
         "slosh1" if offsets.displacement[FLEXIBLE] != 0.0 => "slosh1_offset",
         "slosh2" if offsets.displacement[FLEXIBLE + 1] != 0.0 => "slosh2_offset",
-        "slosh1" | "slosh2" => "fuel_fraction",
+        "slosh1" | "slosh2" => eta0.map_or("fuel_fraction", |i| ["eta10", "eta20", "eta30"][i]),
         _ => "mach0",
     };
     let given = match name {
@@ -138,6 +148,7 @@ fn start_outside(
         "slosh2_offset" => offsets.displacement[FLEXIBLE + 1],
         "fuel_fraction" => parameters.build.fuel_fraction,
         "mach0" => parameters.build.condition.mach,
+        "eta10" | "eta20" | "eta30" => eta0.map_or(0.0, |i| parameters.eta0[i]),
         _ => value,
     };
     let expected = format!(
