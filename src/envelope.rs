@@ -28,10 +28,11 @@ pub struct Limited {
 }
 
 impl Limited {
-    /// Distance to the nearer limit over the width of the range; negative outside.
+    /// Distance to the nearer limit over the width of the range, if it has one; negative outside.
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
-        f64::min(self.value - min, max - self.value) / (max - min)
+        let (nearest, width) = (f64::min(self.value - min, max - self.value), max - min);
+        if width.is_finite() { nearest / width } else { nearest }
     }
 }
 

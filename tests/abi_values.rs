@@ -201,7 +201,13 @@ fn parameters_can_be_set_until_initialisation_ends_and_inputs_always() {
     let settable = |role| matches!(role, Role::Parameter | Role::Input(_));
     let set_all = |slave: &Slave| {
         for (vr, variable) in (0..).zip(&TABLE).filter(|(_, variable)| settable(variable.role)) {
-            let value = if variable.name == "mach0" { 8.0 } else { 0.0 };
+            // A factor cannot be zero.
+            let zero = variable.range.is_none_or(|[min, max]| (min..=max).contains(&0.0));
+            let value = match variable.name {
+                "mach0" => 8.0,
+                _ if zero => 0.0,
+                _ => 1.0,
+            };
             if matches!(variable.kind, Kind::Real(_)) && variable.name != "altitude0" {
                 assert_eq!(slave.set_reals(&[vr], &[value]), Status::Ok, "{}", variable.name);
             }

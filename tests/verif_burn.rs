@@ -3,7 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::{COEFFICIENTS, FUEL, NOMINAL, RIGID, STATES, Vehicle};
+use ahv::aero::{DRAG, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use ahv::assembly::Chosen;
+use ahv::dynamics::{Airframe, COEFFICIENTS, FUEL, GUSTS, NOMINAL, RIGID, STATES, Vehicle};
+use ahv::factors::Factors;
 use ahv::linear::Linear;
 use ahv::modes::MODES;
 use ahv::scalar::{Dual, Scalar};
@@ -15,21 +18,50 @@ use nalgebra::{Matrix5, SymmetricEigen};
 /// Of a coefficient between two levels, over the largest of its kind. Most keep 1e-6; the lift due
 /// to slosh and the damping where two modes cross need the rest.
 const INTERPOLATED: f64 = 6e-5;
-/// Of a frequency between two levels.
-const FREQUENCY: f64 = 5e-6;
+/// A kind that is no larger is there by rounding: without liquid no mode moves the body rigidly.
+const NOTHING: f64 = 1e-9;
+/// Of a frequency between two levels; that of the liquid in nearly empty tanks needs half of it.
+const FREQUENCY: f64 = 1e-5;
 /// Of a pole of the vehicle between two levels, over its frequency and 1 rad/s.
 const POLE: f64 = 5e-6;
 /// Two ways to the same vehicle at a level: rounding, as eigenvectors have it.
 const SAME: f64 = 1e-10;
 /// Levels compared: none of them but the ends is one at which the modes are solved.
 const SAMPLES: usize = 24;
-/// Where each kind of coefficient begins in a row of [`ahv::dynamics::Airframe::to_row`].
-const KINDS: [usize; 20] =
-    [0, 1, 2, 3, 13, 23, 33, 43, 58, 63, 68, 118, 123, 128, 133, 158, 183, 188, 198, COEFFICIENTS];
-/// The last kind, which a body at one level does not have.
-const TURNING: usize = 198;
 
-/// Different enough: full and half full, one mode beside a bending frequency, no slosh at all.
+/// Places of the coefficients of each kind in [`Airframe::to_row`], without the turning of the shapes, which
+/// a body at one level does not have: an airframe whose numbers are their places tells them.
+fn kinds() -> Vec<Vec<usize>> {
+    let Airframe { mass, inertia, mass_centre, elastic, .. } = places();
+    let Airframe { stiffness, damping, floor, slosh, imu, probe, depth, .. } = places();
+    let mut kinds = vec![vec![mass], vec![inertia], vec![mass_centre]];
+    for rows in [LIFT..LIFT + 1, DRAG..DRAG + 1, MOMENT..MOMENT + 1, INFLOW..INFLOW + 1]
+        .into_iter()
+        .chain([FORCE..FORCE + MODES, INCIDENCE..INCIDENCE + 1])
+    {
+        let per = elastic.per.as_flattened().iter();
+        kinds.push(per.flat_map(|per| per[rows.clone()].to_vec()).collect());
+        kinds.push(elastic.pitch_rate[rows].to_vec());
+    }
+    let force = elastic.force;
+    kinds.push(force.alpha.concat());
+    kinds.extend(
+        [force.delta_e, force.plume, force.thrust_across, force.thrust_couple].map(Vec::from),
+    );
+    kinds.extend([stiffness.concat(), damping.concat(), floor.to_vec(), slosh.concat()]);
+    for [deflection, slope] in [imu, probe] {
+        kinds.extend([deflection.to_vec(), slope.to_vec()]);
+    }
+    kinds.push(depth.to_vec());
+    kinds.into_iter().map(|kind| kind.into_iter().map(|place| place as usize).collect()).collect()
+}
+
+fn places() -> Airframe {
+    Airframe::from_row(&std::array::from_fn(|i| i as f64))
+}
+
+/// Different enough: full and half full, one mode beside a bending frequency, no slosh at all, with the
+/// terms in the pitch rate.
 fn builds() -> Vec<Build> {
     let beam = |fuel_fraction, slosh_frequency| Build {
         fuel_burn: true,
@@ -38,7 +70,9 @@ fn builds() -> Vec<Build> {
         ..build(Configuration::SloshBeam)
     };
     let even = Build { fuel_burn: true, ..build(Configuration::EvenMassBeam) };
-    vec![beam(1.0, 0.0), beam(0.5, 0.0), beam(1.0, 20.0), beam(0.8, 50.0), even]
+    let factors = Factors { pitch_rate: 1.0, mass_centre_shift_m: -0.5, ..Factors::default() };
+    let pitching = Build { factors, ..beam(1.0, 0.0) };
+    vec![beam(1.0, 0.0), beam(0.5, 0.0), beam(1.0, 20.0), beam(0.8, 50.0), even, pitching]
 }
 
 fn fractions(build: &Build) -> impl Iterator<Item = f64> {
@@ -52,17 +86,17 @@ fn verif_between_the_levels_every_coefficient_is_what_a_direct_solution_gives() 
     let data = data();
     for build in builds() {
         let vehicle = Vehicle::new(&data, &build).unwrap();
-        let (burn, start) = (vehicle.burn.as_ref().unwrap(), Body::new(&data, &build).unwrap());
+        let chosen = Chosen::new(&data, &build);
+        let (burn, start) = (vehicle.burn.as_ref().unwrap(), Body::new(&chosen).unwrap());
         for fuel_fraction in fractions(&build) {
-            let level = Build { fuel_fraction, ..build };
-            let direct = Body::new(&data, &level).unwrap().turned(&data, &start).unwrap();
-            let direct = direct.airframe(&data, &level, data.aero(build.aero)).to_row();
+            let level = chosen.at(fuel_fraction);
+            let direct = Body::new(&level).unwrap().turned(&level, &start).unwrap();
+            let direct = direct.airframe(&level).unwrap().to_row();
             let fuel = vehicle.fuel * fuel_fraction / build.fuel_fraction;
             let between = burn.airframe(fuel).to_row();
-            for kind in KINDS.windows(2).take_while(|kind| kind[0] < TURNING) {
-                let range = kind[0]..kind[1];
-                let size = direct[range.clone()].iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-                for i in range {
+            for kind in kinds() {
+                let size = kind.iter().fold(NOTHING, |a: f64, i| a.max(direct[*i].abs()));
+                for i in kind {
                     let error = (between[i] - direct[i]).abs();
                     assert!(
                         error <= INTERPOLATED * size,
@@ -87,8 +121,8 @@ fn verif_the_start_is_the_vehicle_without_burning() {
             burning.burn.as_ref().unwrap().airframe(burning.fuel).to_row(),
             still.airframe.to_row(),
         ];
-        for (i, (one, other)) in one.iter().zip(other).enumerate().take(TURNING) {
-            let error = deviation(*one, other, 1e-12);
+        for i in kinds().concat() {
+            let error = deviation(one[i], other[i], 1e-12);
             assert!(error < 1e-12, "{configuration:?}, coefficient {i}: {error:.1e}");
         }
     }
@@ -152,7 +186,7 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
                     assert!((one - other).abs() < 1e-7, "{what}");
                 }
                 let [shown, expected] = [(&burning, one), (&level, other)]
-                    .map(|(v, t)| v.outputs(&t.state, &t.control, 0.0));
+                    .map(|(v, t)| v.both(&t.state, &t.control, [0.0; GUSTS]).1);
                 assert_close(&what, shown.loads.lift, expected.loads.lift, 1e-7);
                 assert_close(&what, shown.n_z, expected.n_z, 1e-7);
                 let [poles, expected] = [(&burning, one), (&level, other)]
@@ -183,12 +217,13 @@ fn verif_dual_numbers_know_what_the_fuel_does() {
             let u = [0.1, 0.4];
             let dual: [Dual<1>; STATES] =
                 std::array::from_fn(|i| Dual { re: x[i], eps: [f64::from(i == FUEL)] });
-            let (rates, outputs) = vehicle.both(&dual, &u.map(Dual::constant), Dual::constant(0.0));
+            let still = [Dual::constant(0.0); GUSTS];
+            let (rates, outputs) = vehicle.both(&dual, &u.map(Dual::constant), still);
             let size = 1e-4 * vehicle.fuel;
             let shifted = |steps: f64| {
                 let mut x = x;
                 x[FUEL] += steps * size;
-                vehicle.both(&x, &u, 0.0)
+                vehicle.both(&x, &u, [0.0; GUSTS])
             };
             let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(shifted);
             let check = |what: &str, dual: Dual<1>, [a, b, c, d]: [f64; 4]| {
@@ -205,15 +240,19 @@ fn verif_dual_numbers_know_what_the_fuel_does() {
             check("lift", outputs.loads.lift, four.map(|o| o.loads.lift));
             check("slosh", outputs.slosh[0], four.map(|o| o.slosh[0]));
             check("n_z", outputs.n_z, four.map(|o| o.n_z));
+            check("n_z_imu", outputs.imu.n_z, four.map(|o| o.imu.n_z));
+            check("alpha_probe", outputs.alpha_probe, four.map(|o| o.alpha_probe));
         }
     }
 }
 
 #[test]
 fn verif_all_numbers_of_an_airframe_come_back_from_its_row() {
-    let row: [f64; COEFFICIENTS] = std::array::from_fn(|i| i as f64 + 1.0);
-    let airframe = ahv::dynamics::Airframe::from_row(&row);
-    assert_eq!(airframe.to_row(), row);
-    assert_eq!(airframe.mass, 1.0);
-    assert_eq!(airframe.turning[MODES - 1][MODES - 1], COEFFICIENTS as f64);
+    let row: [f64; COEFFICIENTS] = std::array::from_fn(|i| i as f64);
+    assert_eq!(places().to_row(), row);
+    // Each is in one kind or in the turning, and in no other.
+    let turning = places().turning.concat().into_iter().map(|place| place as usize);
+    let mut all: Vec<usize> = kinds().concat().into_iter().chain(turning).collect();
+    all.sort_unstable();
+    assert_eq!(all, (0..COEFFICIENTS).collect::<Vec<_>>());
 }

@@ -6,15 +6,15 @@ mod model;
 
 use ahv::decoupling::Decoupling;
 use ahv::dop853::DOP853;
-use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::dynamics::{Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv::exponential::Exponential;
 use ahv::flight::{Flight, method};
 use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
 use ahv::linear::Linear;
 use ahv::modes::MODES;
 use ahv::trim::Trim;
-use ahv::vehicle::{AeroSet, Configuration};
-use model::{CONFIGURATIONS, builds, data, distance, flight};
+use ahv::vehicle::Configuration;
+use model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight};
 use proptest::prelude::*;
 
 /// How well the coordinates go there and back, and L meets the Jacobian, in typical sizes.
@@ -52,14 +52,14 @@ fn verif_the_coordinates_decouple_every_vehicle() {
 }
 
 /// A vehicle under controls that do not move.
-struct Held<'a>(&'a Vehicle, Control, f64);
+struct Held<'a>(&'a Vehicle, Control, Gust);
 
 impl System<STATES> for Held<'_> {
     fn derivatives(&self, _: f64, x: &State) -> State {
         self.0.derivatives(x, &self.1, self.2)
     }
     fn holds(&self, _: f64, x: &State) -> bool {
-        self.0.holds(x, self.2)
+        self.0.holds(x, &self.1, self.2)
     }
     fn nominal(&self) -> &State {
         &NOMINAL
@@ -114,7 +114,7 @@ proptest! {
         fuel in 0.1..1.0_f64,
         disturbance in prop::array::uniform12(-4.0..4.0_f64),
         controls in [-0.1..0.1_f64, 0.0..0.5_f64],
-        gust in prop_oneof![Just(0.0), -10.0..10.0_f64],
+        gust in prop_oneof![Just([0.0; GUSTS]), [-10.0..10.0_f64, -10.0..10.0_f64]],
         steps in prop_oneof![Just(1_u32), Just(4), Just(40), Just(400)],
         digits in 5..10_i32,
     ) {
@@ -128,8 +128,9 @@ proptest! {
         for i in RIGID - 2..vehicle.states() {
             start[i] += disturbance[i + 2 - RIGID] * NOMINAL[i];
         }
-        prop_assume!(vehicle.holds(&start, gust));
-        let system = Held(&vehicle, [trim.control[0] + controls[0], controls[1]], gust);
+        let control = [trim.control[0] + controls[0], controls[1]];
+        prop_assume!(vehicle.holds(&start, &control, gust));
+        let system = Held(&vehicle, control, gust);
         let tolerance = 10.0_f64.powi(-digits);
         let method = method(&vehicle, &trim);
         let ours = flown(&mut method.clone(), &system, &start, tolerance, steps);
@@ -166,8 +167,8 @@ proptest! {
 fn verif_what_rests_arrives_at_once_however_long_the_step() {
     // So well trimmed that the acceleration left, if any, is below the last digit of the speed.
     let mut resting = 0;
-    for altitude in [25_900.0, 26_000.0] {
-        for aero in [AeroSet::Xu2015, AeroSet::ShockExpansion] {
+    for altitude in (0..30).map(|i| 25_000.0 + 100.0 * f64::from(i)) {
+        for aero in AERO_SETS {
             let mut flight = Flight::new().unwrap();
             flight.change(|parameters| {
                 parameters.build.configuration = Configuration::Rigid;
@@ -192,7 +193,7 @@ fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
     start[2] = 0.03;
     start[3] = 0.02;
     let trim = Trim { state: start, control: [0.1, 0.3] };
-    let system = Held(&vehicle, trim.control, 0.0);
+    let system = Held(&vehicle, trim.control, [0.0; GUSTS]);
     for steps in [1, 40] {
         let ours = flown(&mut method(&vehicle, &trim), &system, &start, 1e-8, steps).0;
         let exact = flown(&mut &DOP853, &system, &start, 1e-13, steps).0;

@@ -7,6 +7,7 @@ mod knowledge;
 mod numbers;
 mod path;
 mod report;
+mod stations;
 mod tradeoff;
 
 use crate::cli::{Identified, Identify};
@@ -14,6 +15,7 @@ use crate::workspace::{read_text, root, shown, write};
 use ahv::params::{AeroData, DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
+pub use cells::size;
 use report::Report;
 pub use tradeoff::{Moved, Place, TradeOff};
 
@@ -58,7 +60,8 @@ fn xu2015(options: &Identify) -> Result<()> {
     let text = model.origin.file(&chosen.fit.point)?;
     if options.json || !options.check {
         let (path, knee) = model.path(&|_| ())?;
-        let report = Report::new(&model, &path, knee, &chosen)?;
+        let best = model.best(&chosen)?;
+        let report = Report::new(&model, &path, knee, [&chosen, &best])?;
         if options.json {
             println!("{:#}", report.json());
         } else {

@@ -75,14 +75,33 @@ fn what_is_called_reproduced_holds_the_aim_of_its_kind() {
     assert!(markdown.contains("A number is reproduced within the limit of its kind"));
 }
 
+/// What the default set answers. (b): the pole moves by far more than slightly. (e): the real zero moves
+/// the other way, by a hundredth; the complex ones move as claimed. (h): by more than hardly.
+const ANSWERS: [(&str, &str); 10] = [
+    ("a", "reproduced"),
+    ("b", "sign_only"),
+    ("c", "reproduced"),
+    ("d", "reproduced"),
+    ("e", "not_reproduced"),
+    ("f", "reproduced"),
+    ("g", "reproduced"),
+    ("h", "sign_only"),
+    ("i", "reproduced"),
+    ("j", "reproduced"),
+];
+
 #[test]
 fn every_claim_is_answered_with_numbers() {
-    let (_directory, json) = report(&["--only", "claims"]);
+    let (directory, json) = report(&["--only", "claims"]);
     let claims = json["sets"][0]["claims"].as_array().unwrap();
-    let ids: String = claims.iter().filter_map(|claim| claim["id"].as_str()).collect();
-    assert_eq!(ids, "abcdefghij");
+    let answers: Vec<_> = claims
+        .iter()
+        .map(|claim| (claim["id"].as_str().unwrap(), claim["verdict"].as_str().unwrap()))
+        .collect();
+    assert_eq!(answers, ANSWERS);
+    let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
+    assert!(markdown.contains("One rule serves all claims of a direction"));
     for claim in claims {
-        assert!(claim["verdict"].is_string(), "{claim}");
         let measures = claim["measures"].as_array().unwrap();
         assert!(!measures.is_empty(), "{claim}");
         for measure in measures {
@@ -90,6 +109,64 @@ fn every_claim_is_answered_with_numbers() {
                 assert!(measure[key].is_number(), "{measure}");
             }
         }
+    }
+}
+
+#[test]
+fn a_claim_of_a_direction_is_judged_by_signs_alone() {
+    let (_directory, json) = report(&["--only", "claims"]);
+    let of = |id: &str| {
+        let claims = json["sets"][0]["claims"].as_array().unwrap();
+        claims.iter().find(|claim| claim["id"] == id).unwrap().clone()
+    };
+    let all = |claim: &Value, sign: f64| {
+        let measures = claim["measures"].as_array().unwrap();
+        let met = |m: &Value| sign * m["change"].as_f64().unwrap() > 0.0 && m["steady"] == true;
+        measures.iter().all(met)
+    };
+    for (id, sign) in [("a", 1.0), ("d", 1.0), ("g", -1.0), ("j", -1.0)] {
+        let claim = of(id);
+        assert!(all(&claim, sign) && claim["by"].is_string(), "{claim}");
+    }
+}
+
+#[test]
+fn claim_b_is_shown_under_both_laws_of_inertia() {
+    let (_directory, json) = report(&["--only", "claims"]);
+    let laws = &json["sets"][0]["laws"];
+    let change = |i: usize| {
+        let poles = laws["laws"][i]["poles"].as_array().unwrap();
+        poles.last().unwrap().as_f64().unwrap() / poles[0].as_f64().unwrap() - 1.0
+    };
+    assert!(change(0) > 0.2 && change(1) < 0.0 && change(2) < 0.0);
+    let of = |key: &str| laws[key].as_f64().unwrap();
+    let between = [of("empty_over_full"), of("slight"), of("still"), 1.0];
+    assert!(between.is_sorted(), "{between:?}");
+}
+
+#[test]
+fn the_origin_of_the_digits_is_computed() {
+    let (directory, json) = report(&["--only", "origin"]);
+    let origin = &json["origin"];
+    let number = |value: &Value| value.as_f64().unwrap();
+    let poles = |case: &Value| [number(&case["poles"][0]), number(&case["poles"][1])];
+    let printed = poles(&origin["printed"][0]);
+    for (found, printed) in poles(&origin["rigid"]).into_iter().zip(printed) {
+        assert!((found / printed - 1.0).abs() < 0.012, "{found}");
+    }
+    let even = poles(&origin["printed"][1])[0];
+    for case in origin["elastic"].as_array().unwrap() {
+        assert!(poles(case)[0] < 0.75 * even, "{case}");
+    }
+    let asked: Vec<_> = origin["asked"].as_array().unwrap().iter().collect();
+    for (asked, [least, most]) in asked.iter().zip([[54.0, 56.0], [61.0, 66.0], [62.0, 69.0]]) {
+        let feet = number(&asked["mass_centre_m"]) / 0.3048;
+        assert!((least..most).contains(&feet), "{asked}");
+        assert!((5.5e5..7e5).contains(&number(&asked["inertia"])), "{asked}");
+    }
+    let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
+    for part in ["Where the printed digits come from", "**Rejected**", "**Unexplained**"] {
+        assert!(markdown.contains(part), "{part}");
     }
 }
 
@@ -129,9 +206,13 @@ fn only_what_was_asked_for_is_made() {
     assert!(json.get("table1").is_none() && json.get("errata").is_none());
 }
 
+/// What stays published where one inertia and the stations are free.
+const FREE: [&str; 5] =
+    ["elastic_scale", "i_yy", "mass_centre_shift", "gamma_offset", "structural_damping"];
+
 #[test]
-fn the_trade_off_falls_to_its_knee_and_far_numbers_stand_beside_ours() {
-    let (directory, json) = report(&["--only", "tradeoff,table2"]);
+fn the_trade_off_falls_to_its_knee_and_free_stations_stand_beside_ours() {
+    let (directory, json) = report(&["--only", "tradeoff,table2,table3"]);
     let trade_off = &json["trade_off"];
     let places = trade_off["places"].as_array().unwrap();
     let of = |i: usize, key: &str| places[i][key].as_f64().unwrap();
@@ -141,22 +222,30 @@ fn the_trade_off_falls_to_its_knee_and_far_numbers_stand_beside_ours() {
         assert!(of(i, "distance") > of(i - 1, "distance") && of(i, "misfit") < of(i - 1, "misfit"));
     }
     let numbers = trade_off["numbers"].as_array().unwrap();
-    let moved = numbers.iter().filter(|number| number["factor"] != 1.0);
-    assert!((3..10).contains(&moved.count()), "few numbers move");
+    let moved = numbers.iter().filter(|number| number["identified"] != number["published"]);
+    assert!((3..20).contains(&moved.count()), "few numbers move");
     for number in numbers {
         let of = |key: &str| number[key].as_f64().unwrap();
-        assert!(of("error_factor") > 1.0 && of("error_factor") < of("doubt_factor"), "{number}");
+        assert!(of("error") > 0.0 && of("error") < of("doubt"), "{number}");
         assert!((0.0..=1.0).contains(&of("decided_by_data")), "{number}");
+        let key = number["key"].as_str().unwrap();
+        let free = key == "moment.delta_e" || FREE.iter().any(|free| key.contains(free));
+        assert!(free || number["best_moved_by"] == "1.0000", "{number}");
     }
-    let cells = json["sets"][0]["tables"][0]["cells"].as_array().unwrap();
-    let off = |cell: &Value, key: &str| {
-        (cell[key].as_f64().unwrap() / cell["paper"].as_f64().unwrap() - 1.0).abs()
+    let tables = json["sets"][0]["tables"].as_array().unwrap();
+    let off = |cell: &Value| {
+        (cell["best"].as_f64().unwrap() / cell["paper"].as_f64().unwrap() - 1.0).abs()
     };
-    for cell in cells.iter().filter(|cell| cell["row"].as_str().unwrap().starts_with("short")) {
-        assert!(off(cell, "far") < off(cell, "ours"), "{cell}");
+    for cell in tables[0]["cells"].as_array().unwrap() {
+        if cell["row"].as_str().unwrap().starts_with("short") {
+            assert!(off(cell) < 0.05, "{cell}");
+        }
+    }
+    for cell in tables[1]["means"].as_array().unwrap() {
+        assert!(off(cell) < 0.08, "{cell}");
     }
     let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
-    assert!(markdown.contains("best that implausible numbers could do"));
+    assert!(markdown.contains("one inertia, free stations"));
     assert!(directory.path().join("figures/tradeoff.png").exists());
 }
 

@@ -45,7 +45,7 @@ impl Vehicle {
             let met = self.met(airframe, x, u, gust);
             self.choking_margin(&met, u)
         });
-        Some(Limited { variable: "choking_margin", value, limits: [least, 1.0] })
+        Some(Limited { variable: "choking_margin", value, limits: [least, f64::INFINITY] })
     }
 
     /// Whether the model holds at a state: within the ranges of the curve fits, with the liquid inside

@@ -16,6 +16,8 @@ use crate::vehicle::Data;
 pub struct Ready {
     pub vehicle: Vehicle,
     pub trim: Trim,
+    /// Initial state: the trim with its offsets.
+    pub start: State,
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
     /// Integrates between the master's instants.
@@ -40,20 +42,20 @@ impl Ready {
             }
             Trim { state, control: [0.0; 2] }
         };
-        let mut trim = steady;
-        disturb(&vehicle, &mut trim.state, &offsets);
-        if !vehicle.holds(&trim.state, &trim.control, [0.0; GUSTS]) {
-            return Err(start_outside(&vehicle, &trim, parameters));
+        let mut start = steady.state;
+        disturb(&vehicle, &mut start, &offsets);
+        if !vehicle.holds(&start, &steady.control, [0.0; GUSTS]) {
+            return Err(start_outside(&vehicle, &start, &steady.control, parameters));
         }
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
-        let base = if deviation { trim.control } else { [0.0; 2] };
-        let steady = match trimmed {
+        let base = if deviation { steady.control } else { [0.0; 2] };
+        let about = match trimmed {
             true => steady,
             // Of the condition, so that a start from it flies as one with trim does.
             false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
         };
-        let method = method(&vehicle, &steady);
-        Ok(Self { vehicle, trim, base, method })
+        let method = method(&vehicle, &about);
+        Ok(Self { vehicle, trim: steady, start, base, method })
     }
 
     /// What is in the slot; an empty one is filled, and the state becomes the initial one.
@@ -67,7 +69,7 @@ impl Ready {
             Some(ready) => Ok(ready),
             None => {
                 let ready = Self::new(data, parameters)?;
-                *state = ready.trim.state;
+                *state = ready.start;
                 Ok(slot.insert(ready))
             }
         }
@@ -111,10 +113,25 @@ fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
 }
 
 /// A start where the model does not hold, by the names of the parameters that lead there.
-fn start_outside(vehicle: &Vehicle, start: &Trim, parameters: &Parameters) -> Error {
+fn start_outside(
+    vehicle: &Vehicle,
+    start: &State,
+    control: &Control,
+    parameters: &Parameters,
+) -> Error {
     let Limited { variable, value, limits: [min, max] } =
-        vehicle.tightest(&start.state, &start.control, [0.0; GUSTS]);
+        vehicle.tightest(start, control, [0.0; GUSTS]);
     let offsets = &parameters.offsets;
+    // The flexible mode that moves the liquid of a tank most.
+    let bent = |tank: usize| {
+        let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
+        (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
+    };
+    let eta0 = match variable {
+        "slosh1" if !parameters.trim => bent(0),
+        "slosh2" if !parameters.trim => bent(1),
+        _ => None,
+    };
     let name = match variable {
         "h" => "altitude0",
         "mach" => "mach0",
@@ -122,7 +139,7 @@ fn start_outside(vehicle: &Vehicle, start: &Trim, parameters: &Parameters) -> Er
         "alpha" => "alpha0",
         "slosh1" if offsets.displacement[FLEXIBLE] != 0.0 => "slosh1_offset",
         "slosh2" if offsets.displacement[FLEXIBLE + 1] != 0.0 => "slosh2_offset",
-        "slosh1" | "slosh2" => "fuel_fraction",
+        "slosh1" | "slosh2" => eta0.map_or("fuel_fraction", |i| ["eta10", "eta20", "eta30"][i]),
         _ => "mach0",
     };
     let given = match name {
@@ -131,6 +148,7 @@ fn start_outside(vehicle: &Vehicle, start: &Trim, parameters: &Parameters) -> Er
         "slosh2_offset" => offsets.displacement[FLEXIBLE + 1],
         "fuel_fraction" => parameters.build.fuel_fraction,
         "mach0" => parameters.build.condition.mach,
+        "eta10" | "eta20" | "eta30" => eta0.map_or(0.0, |i| parameters.eta0[i]),
         _ => value,
     };
     let expected = format!(

@@ -147,7 +147,7 @@ impl Instance {
             Interface::CoSimulation => Phase::StepComplete,
         };
         if let Some(trim) = self.flight.trim() {
-            let (alpha, [delta_e, phi]) = (trim.state[3], trim.control);
+            let (alpha, [delta_e, phi]) = (self.flight.state()[3], trim.control);
             self.log.push(Status::Ok, || {
                 format!(
                     "fmi2ExitInitializationMode: start with alpha = {alpha} rad, \

@@ -42,10 +42,13 @@ DERIVATIVES = tuple(f"der({name})" for name in STATES)
 FUEL = "fuel_mass"
 ALL_STATES, ALL_DERIVATIVES = (*STATES, FUEL), (*DERIVATIVES, f"der({FUEL})")
 CONTROLS = ("delta_e", "phi")
-INPUTS = (*CONTROLS, "w_gust")
+GUSTS = ("w_gust", "u_gust")
+INPUTS = (*CONTROLS, *GUSTS)
 # Outputs that are no states: our name, the oracle's name.
+SENSORS = ("theta_imu", "q_imu", "gamma_imu", "n_z_imu", "n_x_imu", "alpha_probe")
+LOADS = ("lift", "drag", "thrust", "moment", "mach", "qbar", "n_z", "choking_margin")
 OUTPUTS = {
-    **{name: name for name in ("theta", "lift", "drag", "thrust", "moment", "mach", "qbar", "n_z")},
+    **{name: name for name in ("theta", *LOADS, *SENSORS)},
     **{"slosh1": "slosh_1", "slosh2": "slosh_2"},
 }
 EVERYTHING = (
@@ -235,7 +238,7 @@ class Instance:
     ) -> np.ndarray:
         """Values of `names` before the first step and after each; inputs(k) is held in step k.
 
-        It gives the controls, and the gust if it likes.
+        It gives the controls, and the gusts if it likes.
         """
         rows = []
         for k in range(steps):

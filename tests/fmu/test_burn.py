@@ -43,7 +43,8 @@ def test_verif_a_burning_flight_is_the_oracles(
     step, steps = 0.01, 70
 
     def manoeuvre(k: int) -> tuple[float, float]:
-        return doublet(k)[0], 0.3 if k >= 10 else 0.0
+        # Half the doublet of other flights: light vehicles would slosh over.
+        return 0.5 * doublet(k)[0], 0.3 if k >= 10 else 0.0
 
     given = {"configuration": configuration, "fuel_fraction": fuel_fraction}
     oracle = Burning(**given)
@@ -135,7 +136,7 @@ def test_inputs_answer_as_a_difference_quotient_says_while_fuel_burns(
     step, rates = 1e-4, EVERYTHING
     with package.flight(aero=aero, fuel_burn=True) as flight:
         flight.fly(10, 0.01, all_inputs)
-        flight.set(delta_e=0.0, phi=0.0, w_gust=0.0)
+        flight.set(**dict.fromkeys(INPUTS, 0.0))
         exact = jacobian(flight, rates, INPUTS)
         for column, name in enumerate(INPUTS):
             both = []

@@ -36,8 +36,9 @@ KNOWNS = (*ALL_STATES, *INPUTS)
 BASE = {
     **{"trim": False, "altitude0": 19000.0, "mach0": 8.0, "gamma0": 0.01, "alpha0": 0.02},
     **{"q0": 0.03, "eta10": 0.05, "eta20": -0.02, "eta30": 0.01, "delta_e": 0.1, "phi": 0.3},
-    # In still air the flight-path angle would not matter to the loads.
-    **{"w_gust": 5.0, "fuel_burn": True},
+    # In still air the flight-path angle would not matter to the loads, by eq. (4) as printed the
+    # pitch rate neither.
+    **{"w_gust": 5.0, "u_gust": 2.0, "fuel_burn": True, "pitch_rate_factor": 1.0},
 }
 # Which start value moves which state or input, and by how much.
 MOVES = {
@@ -45,10 +46,13 @@ MOVES = {
     **{"alpha": ("alpha0", 0.03), "q": ("q0", 0.05)},
     **{"eta1": ("eta10", 0.04), "eta2": ("eta20", 0.03), "eta3": ("eta30", 0.02)},
     **{"delta_e": ("delta_e", 0.05), "phi": ("phi", 0.2), "w_gust": ("w_gust", 3.0)},
+    "u_gust": ("u_gust", 3.0),
 }
 # The initial speed, altitude and path angle also set the weight on the floors of the tanks: with
 # sloshing masses they change parameters of the model, not only the state.
 ALSO_PARAMETERS = ("V", "h", "gamma")
+# By the speed of sound alone, which is the same where the temperature is.
+BY_TEMPERATURE = (("mach", "h"), ("choking_margin", "h"))
 LINEAR = 1e-9  # rounding of a difference quotient, relative
 
 
@@ -106,7 +110,7 @@ def test_verif_claimed_dependencies_are_all_dependencies(
                 moved |= start(configuration, aero=aero, **moved_to) != base
     for name, changed in zip(claims, moved, strict=True):
         beyond = known in ALSO_PARAMETERS and "slosh" in name
-        if not beyond and (name, known) != ("mach", "h"):
+        if not beyond and (name, known) not in BY_TEMPERATURE:
             assert changed == (known in claims[name]), f"{name} of {known}"
 
 
@@ -114,12 +118,15 @@ def test_verif_mach_number_depends_on_the_altitude(
     claims: dict, start: Callable[..., np.ndarray]
 ) -> None:
     """Where the temperature changes, another altitude means another speed for the same number."""
-    still = {"w_gust": 0.0}
+    still = {"w_gust": 0.0, "u_gust": 0.0}
     low, high = start(RIGID, **still), start(RIGID, altitude0=25900.0, **still)
     speed, mach = list(claims).index("V"), list(claims).index("mach")
     assert high[speed] > low[speed] + 1.0
     assert high[mach] == pytest.approx(low[mach], rel=1e-14)
-    assert {"V", "h", "gamma", "w_gust"} == set(claims["mach"])
+    assert {"V", "h", "gamma", "w_gust", "u_gust"} == set(claims["mach"])
+    margin = list(claims).index("choking_margin")
+    assert high[margin] != pytest.approx(low[margin], rel=1e-3)
+    assert "h" in claims["choking_margin"]
 
 
 @pytest.mark.parametrize("known", MOVES)
@@ -180,20 +187,21 @@ def test_verif_dependencies_are_the_sparsity_of_the_equations(
     """All states and inputs: the claims are the nonzero pattern of the oracle's derivatives.
 
     In one coefficient set or another: only one has a plume under the aft-body. What the fuel does
-    is seen in that one while it burns.
+    is seen in that one while it burns, and what the pitch rate does if its terms count.
     """
     names = list(claims)
     generator = np.random.default_rng(7)
     cases = [(configuration, aero) for configuration in CONFIGURATIONS for aero in AERO_SETS]
     oracles = [vehicle(configuration=configuration, aero=aero) for configuration, aero in cases]
-    oracles.append(Burning(configuration=SLOSH_BEAM, aero="shock_expansion"))
+    burning = {"configuration": SLOSH_BEAM, "aero": "shock_expansion", "pitch_rate_factor": 1.0}
+    oracles.append(Burning(**burning))
     slopes = np.zeros((len(oracles), 3, len(names), len(KNOWNS)))
     for c, oracle in enumerate(oracles):
         trim, control = oracle.trim()
         for point in range(3):
             x = generator.normal(0.0, 0.01, len(ALL_STATES))
             x[: oracle.states] += trim
-            u = np.append(control, 5.0) + generator.normal(0.0, 0.02, len(INPUTS))
+            u = np.append(control, [5.0, 2.0]) + generator.normal(0.0, 0.02, len(INPUTS))
             for known in range(len(KNOWNS)):
                 slopes[c, point, :, known] = jacobian(oracle, names, x, u, known)
     for row, name in enumerate(names):

@@ -11,8 +11,9 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from fmpy.fmi1 import FMICallException
 
-from harness import CONFIGURATIONS, DERIVATIVES, Package
+from harness import CONFIGURATIONS, DERIVATIVES, ERROR, Package
 from oracle import DATA_DIR, Vehicle
 
 # Both solve the same equations to rounding; the conditioning costs a few digits.
@@ -80,6 +81,17 @@ def test_verif_own_vehicle_is_told_apart(own: Package, package: Package) -> None
     assert set(sets) > {item.name for item in package.variables["aero"].declaredType.items}
     with own.flight() as mine, own.flight(aero="xu2015") as ours:
         assert mine["alpha_trim"] != ours["alpha_trim"]
+
+
+def test_verif_a_state_of_another_vehicle_is_refused(own: Package, package: Package) -> None:
+    """Its parameters would fit, its masses and modes would not."""
+    with package.flight() as ours, own.flight() as mine:
+        data = ours.fmu.serializeFMUstate(ours.fmu.getFMUstate())
+        before = mine.bits()
+        with pytest.raises(FMICallException):
+            mine.fmu.deSerializeFMUstate(data)
+        assert mine.log[-1].status == ERROR and "another model" in mine.log[-1].text
+        assert mine.bits() == before
 
 
 @pytest.mark.parametrize(

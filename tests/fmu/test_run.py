@@ -12,6 +12,7 @@ from harness import (
     AERO_SETS,
     CONFIGURATIONS,
     DERIVATIVES,
+    GUSTS,
     INPUTS,
     OUTPUTS,
     STATES,
@@ -50,10 +51,17 @@ def gust(step: int) -> tuple[float, float, float]:
     return 0.0, 0.0, 2.5 * (1.0 - np.cos(2.0 * np.pi * phase))
 
 
-def all_inputs(step: int) -> tuple[float, float, float]:
+def headwind(step: int) -> tuple[float, float, float, float]:
+    """1 - cosine, 20 m/s against the flight, 0.3 s long; more fuel, which moves the speed."""
+    phase = np.clip((step - 10) / 30, 0.0, 1.0)
+    return 0.0, throttle(step)[1], 0.0, -10.0 * (1.0 - np.cos(2.0 * np.pi * phase))
+
+
+def all_inputs(step: int) -> tuple[float, float, float, float]:
     """Something on all inputs in every step, without a pattern."""
     one, two, three = 1.7 * step**1.3, 2.3 * step**1.2, 1.9 * step**1.1
-    return 0.01 * np.sin(one), 0.1 * np.cos(two), 20.0 * np.sin(three)
+    along = 20.0 * np.cos(1.3 * step**1.25)
+    return 0.01 * np.sin(one), 0.1 * np.cos(two), 20.0 * np.sin(three), along
 
 
 def columns(vehicle: Vehicle, states: np.ndarray, outputs: dict) -> np.ndarray:
@@ -74,7 +82,7 @@ def assert_equal_flights(ours: np.ndarray, theirs: np.ndarray, limit: float) -> 
 
 
 @pytest.mark.parametrize("tolerance", RUN, ids=["default", "tight"])
-@pytest.mark.parametrize("manoeuvre", [doublet, throttle, gust], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("manoeuvre", [doublet, throttle, gust, headwind], ids=lambda f: f.__name__)
 @pytest.mark.parametrize("aero", AERO_SETS)
 @pytest.mark.parametrize("configuration", CONFIGURATIONS)
 def test_verif_run_equals_the_oracle(
@@ -117,7 +125,7 @@ def test_verif_rates_and_outputs_equal_the_oracle_at_every_state(
     """Equations (3) and (4) themselves: no integrator in between, all states away from trim."""
     oracle = vehicle(configuration=configuration, aero=aero)
     active = ACTIVE_STATES[configuration]
-    names = (*STATES, "delta_e_effective", "phi_effective", "w_gust", *DERIVATIVES, *OUTPUTS)
+    names = (*STATES, "delta_e_effective", "phi_effective", *GUSTS, *DERIVATIVES, *OUTPUTS)
     with package.flight(configuration=configuration, aero=aero) as flight:
         table = flight.fly(40, 0.02, all_inputs, names)
     count = len(STATES)

@@ -13,7 +13,7 @@ import pytest
 
 from harness import Package
 
-OUTPUTS = 21
+OUTPUTS = 28
 
 
 def test_verif_one_line_flies_level(package: Package) -> None:

@@ -12,9 +12,19 @@ from typing import Any
 import pytest
 from fmpy.fmi2 import fmi2FMUstate
 
+from contract import FACTORS, OFFSETS
 from harness import CONFIGURATIONS, ERROR, Instance, Package
 
 HERE = Path(__file__).parent
+# Another value for whatever is uncertain, and for where the sensors sit.
+UNCERTAIN = {
+    **{f"{name}_factor": 1.0 + 0.003 * (k + 1) for k, name in enumerate(FACTORS)},
+    **{"pitch_rate_factor": 0.7, "mass_centre_shift": 0.05},
+    **{f"{name}_offset": 1e-3 * (k + 1) for k, name in enumerate(OFFSETS)},
+    **{"imu_station": 12.5, "probe_station": 0.4},
+}
+# Where the model's hash begins in the bytes of a state, and the length of their checksum.
+MODEL_HASH, CHECKSUM = 16, 8
 
 
 def fly(flight: Instance, steps: int = 20) -> bytes:
@@ -41,7 +51,8 @@ def test_verif_reset_restores_every_default(package: Package) -> None:
         **{"configuration": 1, "fuel_fraction": 0.3, "slosh_damping": 0.2, "slosh_frequency": 9.0},
         **{"mach0": 9.0, "altitude0": 27000.0, "gamma0": 0.01, "input_mode": 2, "trim": False},
         **{"alpha0": 0.02, "q0": 0.01, "eta10": 0.1, "eta20": 0.1, "eta30": 0.1},
-        **{"delta_e": 0.2, "phi": 0.3},
+        **{"delta_e": 0.2, "phi": 0.3, "w_gust": 3.0, "u_gust": -4.0},
+        **UNCERTAIN,
     }
     with package.instance() as used, package.instance() as fresh:
         used.initialise(tolerance=1e-3, start=5.0, **changed)
@@ -93,7 +104,8 @@ def test_verif_state_moves_to_another_instance(package: Package) -> None:
 
 def test_verif_state_moves_to_another_process(package: Package, tmp_path: Path) -> None:
     """Another process restores the bytes in a fresh instance and flies the same bits."""
-    with package.flight(fuel_fraction=0.4, slosh_frequency=12.0) as flight:
+    given = {"fuel_fraction": 0.4, "slosh_frequency": 12.0, "w_gust": 2.0, "u_gust": -3.0}
+    with package.flight(**given, **UNCERTAIN) as flight:
         fly(flight, 7)
         file = tmp_path / "state"
         file.write_bytes(flight.fmu.serializeFMUstate(flight.fmu.getFMUstate()))
@@ -119,6 +131,33 @@ def test_verif_garbage_is_no_state(package: Package) -> None:
             assert flight.status("fmi2DeSerializeFMUstate", *arguments) == ERROR
             assert flight.log[-1].text and not state.value
             assert flight.bits() == before
+
+
+def sealed(body: bytes) -> bytes:
+    """The bytes with a checksum that fits: 64-bit FNV-1a."""
+    total = 0xCBF29CE484222325
+    for byte in body:
+        total = (total ^ byte) * 0x100000001B3 % 2**64
+    return body + total.to_bytes(CHECKSUM, "little")
+
+
+def test_verif_a_state_of_another_model_is_refused(package: Package) -> None:
+    """Bytes that are whole, but of a model with another hash; the flight goes on unharmed."""
+    with package.flight(**UNCERTAIN) as flight:
+        fly(flight, 5)
+        good = flight.fmu.serializeFMUstate(flight.fmu.getFMUstate())
+        assert sealed(good[:-CHECKSUM]) == good
+        other = bytearray(good[:-CHECKSUM])
+        other[MODEL_HASH + 3] ^= 0x10
+        bad, before, state = sealed(bytes(other)), flight.bits(), fmi2FMUstate()
+        buffer = create_string_buffer(bad, size=len(bad))
+        arguments = (buffer, len(bad), byref(state))
+        assert flight.status("fmi2DeSerializeFMUstate", *arguments) == ERROR
+        assert "another model" in flight.log[-1].text and not state.value
+        assert flight.bits() == before
+        flight.fmu.setFMUstate(flight.fmu.deSerializeFMUstate(good))
+        assert flight.bits() == before
+        assert {name: flight[name] for name in UNCERTAIN} == UNCERTAIN
 
 
 def test_verif_interleaved_instances_do_not_meet(package: Package) -> None:

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
+import oracle_choking
 from oracle_aero import TINY, Elastic, atmosphere, gravity, poly
 from oracle_factors import applied, chosen
 from oracle_linear import Linear, in_order, invariant_zeros, linear
@@ -201,8 +202,15 @@ class Vehicle:
             "slosh_1": slosh[0],
             "slosh_2": slosh[1],
             "n_z": normal / weight,
+            "choking_margin": self.choking_margin(x, u),
             **readings(self, x, u, f),
         }
+
+    def choking_margin(self, x: np.ndarray, u: np.ndarray) -> Any:
+        """Fuel ratio that can still be added before the burner chokes."""
+        (v, _), inflow = self.stream(x, u), self.incidences(x, u)[2]
+        sound, gamma = atmosphere(self.earth, x[1])[1], self.earth["air"]["heat_capacity_ratio"]
+        return oracle_choking.margin(self.data, gamma, v / sound, sound, inflow, u[1])
 
     def imu_shapes(self) -> dict[str, float]:
         """Shape and slope (1/m) of the flexible modes at the IMU, 0 where there is no mode."""

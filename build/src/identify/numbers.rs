@@ -20,10 +20,10 @@ const ELASTIC: f64 = std::f64::consts::LN_2;
 const BALANCE: f64 = 1.524;
 
 /// Numbers that move by a difference; the others move by a ratio.
-const MASS_CENTRE: &str = "inertia.mass_centre_shift_m";
+pub const MASS_CENTRE: &str = "inertia.mass_centre_shift_m";
 pub const GAMMA_OFFSET: &str = "reference.gamma_offset_m";
 
-fn moves_by_difference(key: &str) -> bool {
+pub fn moves_by_difference(key: &str) -> bool {
     [MASS_CENTRE, GAMMA_OFFSET].contains(&key)
 }
 

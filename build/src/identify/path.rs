@@ -30,8 +30,8 @@ const EXCESS: f64 = 0.05;
 pub struct Model {
     pub cells: Vec<Cell>,
     pub origin: Origin,
-    data: Data,
-    columns: Vec<Build>,
+    pub data: Data,
+    pub columns: Vec<Build>,
 }
 
 /// One point of the trade-off.
@@ -121,7 +121,7 @@ impl Model {
         Some(DVector::from_iterator(scaled.clone().count() + room.len(), scaled.chain(room)))
     }
 
-    fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64, end: End) -> Result<Point> {
+    pub fn fit(&self, start: &DVector<f64>, held: &[bool], weight: f64, end: End) -> Result<Point> {
         let fit = minimise(&|point| self.residual(point), start, held, weight, end)
             .with_context(|| format!("weight {weight:.1e}"))?;
         Ok(Point { weight, fit })

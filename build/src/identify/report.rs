@@ -3,27 +3,28 @@
 use super::knowledge::Knowledge;
 use super::numbers::{MOVABLE, written_move};
 use super::path::{Model, Point, bends};
+use super::stations::Stations;
 use crate::table::{number, row, table};
 use anyhow::{Result, anyhow};
 use nalgebra::DVector;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Values of the cells with one set, and its trims.
+/// Values of the cells with one set, its trims, and where things sit in it.
 struct Filled {
     name: &'static str,
     values: Vec<f64>,
     trims: Vec<[f64; 3]>,
+    stations: Stations,
 }
 
 impl Filled {
     fn new(model: &Model, name: &'static str, point: &DVector<f64>) -> Result<Self> {
-        let answer = || {
-            let set = model.origin.moved(point)?;
-            Some((model.values(&set)?, model.trims(&set)?))
-        };
-        let (values, trims) = answer().ok_or_else(|| anyhow!("{name} has no trim"))?;
-        Ok(Self { name, values, trims })
+        let none = || anyhow!("{name} has no trim");
+        let set = model.origin.moved(point).ok_or_else(none)?;
+        let values = model.values(&set).ok_or_else(none)?;
+        let trims = model.trims(&set).ok_or_else(none)?;
+        Ok(Self { name, values, trims, stations: model.stations(&set)? })
     }
 }
 
@@ -33,7 +34,8 @@ pub struct Report<'a> {
     path: &'a [Point],
     knee: usize,
     chosen: &'a Point,
-    filled: [Filled; 3],
+    best: &'a Point,
+    filled: [Filled; 4],
     knowledge: Knowledge,
 }
 
@@ -42,17 +44,18 @@ impl<'a> Report<'a> {
         model: &'a Model,
         path: &'a [Point],
         knee: usize,
-        chosen: &'a Point,
+        [chosen, best]: [&'a Point; 2],
     ) -> Result<Self> {
         let published = DVector::zeros(MOVABLE.len());
         let last = path.last().ok_or_else(|| anyhow!("an empty path"))?;
         let filled = [
             Filled::new(model, "parker2007", &published)?,
             Filled::new(model, "xu2015", &chosen.fit.point)?,
+            Filled::new(model, "free_stations", &best.fit.point)?,
             Filled::new(model, "unbound", &last.fit.point)?,
         ];
         let knowledge = Knowledge::new(&model.sensitivity(chosen)?, chosen.weight)?;
-        Ok(Self { model, path, knee, chosen, filled, knowledge })
+        Ok(Self { model, path, knee, chosen, best, filled, knowledge })
     }
 
     pub fn text(&self) -> Result<String> {
@@ -76,6 +79,11 @@ impl<'a> Report<'a> {
         text += &self.cells();
         text += "\nTrim: incidence, elevator, fuel ratio\n";
         text += &self.trims();
+        text += "\nfree_stations: the best that one inertia and free stations can do; all coefficients are \
+                 published but the elevator's moment\n";
+        for filled in &self.filled {
+            writeln!(text, "{}: {}", filled.name, filled.stations.text())?;
+        }
         Ok(text)
     }
 
@@ -93,6 +101,8 @@ impl<'a> Report<'a> {
         }
         let [distance, misfit] = [self.chosen.distance(), self.chosen.misfit()].map(number);
         rows.push(vec!["xu2015".into(), distance, misfit, String::new(), String::new()]);
+        let [distance, misfit] = [self.best.distance(), self.best.misfit()].map(number);
+        rows.push(vec!["free_stations".into(), distance, misfit, String::new(), String::new()]);
         table(&rows)
     }
 
@@ -239,6 +249,11 @@ impl<'a> Report<'a> {
             .iter()
             .map(|filled| (filled.name.to_string(), json!(filled.trims)))
             .collect();
+        let stations: serde_json::Map<_, _> = self
+            .filled
+            .iter()
+            .map(|filled| (filled.name.to_string(), json!(filled.stations)))
+            .collect();
         let combinations: Vec<_> = (0..self.knowledge.singular_values.len())
             .map(|column| {
                 let parts = self.knowledge.combination(column);
@@ -257,6 +272,8 @@ impl<'a> Report<'a> {
             "trade_off": path,
             "cells": cells,
             "trims_rad_rad_1": trims,
+            "stations": stations,
+            "free_stations": { "distance": self.best.distance(), "misfit": self.best.misfit() },
             "combinations": combinations,
         })
     }

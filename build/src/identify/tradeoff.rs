@@ -1,8 +1,10 @@
 //! The trade-off of `xu2015` as a report shows it.
 
+use super::cells::Cell;
 use super::knowledge::Knowledge;
-use super::numbers::{MOVABLE, written_move};
+use super::numbers::{MOVABLE, moves_by_difference, written_move};
 use super::path::{Model, Point};
+use super::stations::Stations;
 use ahv::params::AeroData;
 use ahv::vehicle::Data;
 use anyhow::{Result, anyhow};
@@ -26,12 +28,14 @@ pub struct Moved {
     pub key: &'static str,
     pub published: f64,
     pub identified: f64,
-    /// A factor, or the difference of the mass centre, m.
+    /// A factor, or a difference in m.
     pub moved_by: String,
-    /// The factor that costs 1.
-    pub doubt_factor: f64,
-    /// Formal standard error, as a factor.
-    pub error_factor: f64,
+    /// Whether it moves by a difference.
+    pub difference: bool,
+    /// The factor, or the difference, that costs 1.
+    pub doubt: f64,
+    /// Formal standard error, likewise.
+    pub error: f64,
     /// Part that the data decide; the norm decides the rest.
     pub decided_by_data: f64,
     /// The printed number that answers most, of those with a wanted accuracy.
@@ -40,6 +44,8 @@ pub struct Moved {
     pub slope: f64,
     /// At the far end of the trade-off.
     pub far_moved_by: String,
+    /// With one inertia and free stations.
+    pub best_moved_by: String,
 }
 
 /// All of it.
@@ -51,9 +57,15 @@ pub struct TradeOff {
     /// The knee with small moves put back: what is committed.
     pub chosen: Place,
     pub numbers: Vec<Moved>,
-    /// The set at the far end: the best that implausible numbers can do.
+    /// The best that one inertia and free stations can do, and where they are.
+    pub best: Place,
+    pub best_stations: Stations,
+    /// Its smallest and largest relative errors: short period, geometric means of the real zeros.
+    pub best_errors: [[f64; 2]; 2],
+    /// Stations of the chosen set.
+    pub stations: Stations,
     #[serde(skip)]
-    pub far: AeroData,
+    pub best_set: AeroData,
 }
 
 fn place(point: &Point) -> Place {
@@ -69,8 +81,14 @@ impl TradeOff {
         let last = path.last().ok_or_else(|| anyhow!("an empty path"))?;
         let sensitivity = model.sensitivity(&chosen)?;
         let knowledge = Knowledge::new(&sensitivity, chosen.weight)?;
-        let far = model.origin.moved(&last.fit.point).ok_or_else(|| anyhow!("no such set"))?;
-        let far_values = model.origin.values(&last.fit.point);
+        let set = |point: &Point| {
+            model.origin.moved(&point.fit.point).ok_or_else(|| anyhow!("no such set"))
+        };
+        let best = model.best(&chosen)?;
+        let best_set = set(&best)?;
+        let best_cells = model.values(&best_set).ok_or_else(|| anyhow!("no trim"))?;
+        let [far_values, best_values] =
+            [last, &best].map(|point| model.origin.values(&point.fit.point));
         let values = model.origin.values(&chosen.fit.point);
         let number = |(i, ((key, doubt), [published, identified])): (usize, (_, [f64; 2]))| {
             let (strongest, slope) = strongest(&model, &sensitivity, i);
@@ -79,12 +97,14 @@ impl TradeOff {
                 published,
                 identified,
                 moved_by: written_move(key, [published, identified]),
-                doubt_factor: f64::exp(doubt),
-                error_factor: f64::exp(doubt * knowledge.errors[i]),
+                difference: moves_by_difference(key),
+                doubt: scale(key, doubt),
+                error: scale(key, doubt * knowledge.errors[i]),
                 decided_by_data: knowledge.resolution[i],
                 strongest,
                 slope: slope / doubt,
                 far_moved_by: written_move(key, far_values[i]),
+                best_moved_by: written_move(key, best_values[i]),
             }
         };
         Ok(Self {
@@ -92,9 +112,26 @@ impl TradeOff {
             knee,
             chosen: place(&chosen),
             numbers: MOVABLE.into_iter().zip(values).enumerate().map(number).collect(),
-            far,
+            best: place(&best),
+            best_errors: ["short-period pole", "real zeros"]
+                .map(|name| errors(&model.cells, &best_cells, name)),
+            best_stations: model.stations(&best_set)?,
+            stations: model.stations(&set(&chosen)?)?,
+            best_set,
         })
     }
+}
+
+/// A step in a coordinate's own measure: a factor, or a difference.
+fn scale(key: &str, step: f64) -> f64 {
+    if moves_by_difference(key) { step } else { step.exp() }
+}
+
+/// Smallest and largest relative error of some cells.
+fn errors(cells: &[Cell], values: &[f64], name: &str) -> [f64; 2] {
+    let of = cells.iter().zip(values).filter(|(cell, _)| cell.name.starts_with(name));
+    let sizes = of.map(|(cell, value)| cell.error(*value).abs());
+    sizes.fold([f64::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])
 }
 
 /// The cell that answers a number most, and the relative change of it per unit of the coordinate.

@@ -69,9 +69,13 @@ pub fn coupling(interaction: &Interaction) -> String {
         moved("zero", Name::RightZero),
         moved("pole", Name::Flexible(0)),
     );
-    text += "The short-period poles are real. A real pole s meets a slosh mode through 1/(s² + ω²), \
-             which has no peak: there is no resonance near 5 rad/s to be found, only a load that \
-             follows more stiffly as ω rises.\n\n";
+    text += &format!(
+        "The short-period poles are real: s takes the part ω²/(s² + ω²) of a sloshing mass along, which rises from \
+         0 to 1 around ω = |s|, without a peak. A liquid slower than {} rad/s stays behind when the body turns; a \
+         faster one goes with it and adds its inertia. So the poles move towards the axis most around \
+         that frequency, which is near the 5 rad/s of the paper (claim (g)).\n\n",
+        limit(interaction, COLUMNS[2]).map_or(String::new(), |limit| short(limit.pole))
+    );
     let sum = |of: &str| interaction.zeros.iter().find(|zeros| zeros.of == of).map(|z| z.sum);
     if let (Some(even), Some(slosh)) = (sum(COLUMNS[1]), sum(COLUMNS[2])) {
         let largest = interaction.zeros.iter().max_by(|a, b| a.sum.abs().total_cmp(&b.sum.abs()));

@@ -2,6 +2,7 @@
 
 mod trials;
 
+use super::laws::Laws;
 use super::sweep::Sweep;
 use super::verdict::Verdict;
 use serde::Serialize;
@@ -12,6 +13,7 @@ pub struct Evidence<'a> {
     pub fuel: &'a Sweep,
     pub damping: &'a Sweep,
     pub frequency: &'a Sweep,
+    pub laws: &'a Laws,
 }
 
 /// A number at the start and at the end of the way that a claim speaks of, rad/s.
@@ -22,6 +24,8 @@ pub struct Measure {
     pub end: f64,
     /// (end - start)/|start|.
     pub change: f64,
+    /// At every step of the way it stands on the side of its start where it ends.
+    pub steady: bool,
 }
 
 #[derive(Debug, Clone, Serialize)]

@@ -2,13 +2,17 @@
 
 mod advice;
 mod claims;
+mod claims_page;
 mod eigen;
 mod figures;
 mod fit_errors;
 mod html;
 mod identified;
 mod interaction;
+mod laws;
 mod markdown;
+mod origin;
+mod origin_page;
 mod point;
 mod report;
 mod roots;
@@ -50,6 +54,8 @@ pub enum Part {
     Interaction,
     /// Which numbers xu2015 moved, and what more would have cost
     Tradeoff,
+    /// Where the printed digits come from
+    Origin,
     /// Errors of the fit behind shock_expansion
     Fit,
     /// What is wrong in the paper

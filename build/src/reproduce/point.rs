@@ -1,14 +1,25 @@
 //! The vehicle in one configuration, trimmed and linearised.
 
-use super::roots::{Metric, Root, name_poles, name_zeros, roots};
+use super::roots::{BODY_ROWS, Metric, RIGID_ROWS, Root, name_poles, name_zeros, roots};
+use ahv::assembly::Chosen;
 use ahv::beam::{Beam, Oscillator};
 use ahv::dynamics::{RIGID, Vehicle};
 use ahv::linear::{Linear, OUTPUT_STATES};
 use ahv::modes::{FLEXIBLE, Modes, SLOSH};
+use ahv::rigid_body::RigidMotion;
 use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Build, Configuration, Data, structure};
+use ahv::vehicle::{Build, Configuration, Data};
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
+
+/// Whose flight-path angle is the second output.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Gamma {
+    /// That of the point of the body where Table 3 reads it.
+    Printed,
+    /// That of the mean axes, gamma of eq. (3).
+    MeanAxes,
+}
 
 /// All that the report needs to know of one vehicle.
 #[derive(Debug, Clone)]
@@ -22,6 +33,12 @@ pub struct Point {
 
 impl Point {
     pub fn new(data: &Data, build: &Build) -> Result<Self> {
+        Self::of(Chosen::new(data, build), Gamma::Printed)
+    }
+
+    /// With any coefficient set.
+    pub fn of(chosen: Chosen, gamma: Gamma) -> Result<Self> {
+        let build = chosen.build;
         let failed = || {
             format!(
                 "{:?} with {:?}, {:.0} % fuel, sloshing at {} rad/s with damping {}",
@@ -32,10 +49,15 @@ impl Point {
                 build.slosh_damping
             )
         };
-        let vehicle = Vehicle::new(data, build).with_context(failed)?;
+        let chosen = chosen.sensed_as_printed().with_context(failed)?;
+        let vehicle = Vehicle::chosen(&chosen).with_context(failed)?;
         let trim = trim(&vehicle, &build.condition).with_context(failed)?;
-        let linear = Linear::new(&vehicle, &trim.state, &trim.control);
-        let (beam, oscillators) = structure(data, build)?;
+        let linearise = match gamma {
+            Gamma::Printed => Linear::sensed,
+            Gamma::MeanAxes => Linear::new,
+        };
+        let linear = linearise(&vehicle, &trim.state, &trim.control);
+        let (beam, oscillators) = chosen.structure()?;
         let modes = match build.configuration {
             Configuration::Rigid => Modes::default(),
             _ => Modes::solve(&beam, &oscillators)?,
@@ -61,20 +83,34 @@ impl Point {
 }
 
 fn named_roots(linear: &Linear, metric: &Metric, slosh: usize, flexible: bool) -> [Vec<Root>; 2] {
-    let all: Vec<usize> = (0..linear.a.nrows()).collect();
-    let mut poles = roots(&linear.a, &linear.poles(), &all, metric);
+    let mut poles = roots(&linear.a, &linear.poles(), metric);
     name_poles(&mut poles, slosh, flexible);
     let mut zeros = Vec::new();
     if let Some(matrix) = linear.zero_dynamics() {
-        let hidden: Vec<usize> =
-            all.into_iter().filter(|state| !OUTPUT_STATES.contains(state)).collect();
-        zeros = roots(&matrix, &linear.zeros(), &hidden, metric);
+        let matrix_of = &metric.matrix * held(&linear.c);
+        let metric = Metric { matrix: matrix_of, sloshing: metric.sloshing };
+        zeros = roots(&matrix, &linear.zeros(), &metric);
         name_zeros(&mut zeros, slosh, flexible);
     }
     [poles, zeros]
 }
 
-/// The kinetic energy of a motion is half the squared length of metric times state.
+/// The states while both outputs are held, from all states but V and gamma: V rests, and gamma of the
+/// mean axes moves against what the body under the sensor does.
+fn held(c: &DMatrix<f64>) -> DMatrix<f64> {
+    let [_, gamma] = OUTPUT_STATES;
+    let hidden: Vec<usize> = (0..c.ncols()).filter(|row| !OUTPUT_STATES.contains(row)).collect();
+    let mut held = DMatrix::zeros(c.ncols(), hidden.len());
+    for (column, row) in hidden.into_iter().enumerate() {
+        held[(row, column)] = 1.0;
+        held[(gamma, column)] = -c[(1, row)] / c[(1, gamma)];
+    }
+    held
+}
+
+/// The kinetic energy of a motion is half the squared length of metric times state. It is that of the
+/// mass matrix in which the modes are orthogonal: the beam's density carries what bends, and mass,
+/// mass centre and inertia of the body ([`ahv::rigid_body`]) its mean translation and rotation.
 fn metric(
     vehicle: &Vehicle,
     trim: &Trim,
@@ -83,23 +119,60 @@ fn metric(
     modes: &Modes,
 ) -> Metric {
     let elements = beam.elements();
-    let rigid = super::roots::RIGID_ROWS;
     let sloshing = oscillators.len().min(SLOSH);
-    let mut matrix = DMatrix::zeros(rigid + elements + sloshing, vehicle.states());
+    let bent = RIGID_ROWS + BODY_ROWS;
+    let mut matrix = DMatrix::zeros(bent + elements + sloshing, vehicle.states());
     let mass = vehicle.airframe.mass.sqrt();
     matrix[(0, 0)] = mass;
     matrix[(1, 2)] = mass * trim.state[0];
     matrix[(2, 4)] = vehicle.airframe.inertia.sqrt();
+    let body = RigidMotion::of(beam);
+    // The root of [[mass, first], [first, inertia]].
+    let translation = body.mass.sqrt();
+    let coupling = beam.moments.first / translation;
+    let rotation = (body.inertia + beam.moments.second - coupling * coupling).sqrt();
     for (i, shape) in modes.shape.iter().enumerate() {
         let rate = RIGID + 2 * i + 1;
+        let [moved, turned] = body.part(&shape.w, &shape.slope);
+        matrix[(RIGID_ROWS, rate)] = translation * moved + coupling * turned;
+        matrix[(RIGID_ROWS + 1, rate)] = rotation * turned;
         for e in 0..elements {
-            let middle = 0.5 * (shape.w[e] + shape.w[e + 1]);
-            matrix[(rigid + e, rate)] = (beam.density[e] * beam.element_m).sqrt() * middle;
+            let station = 0.5 * (beam.station(e) + beam.station(e + 1));
+            let rigidly = moved + turned * (station - body.centre_m);
+            let middle = 0.5 * (shape.w[e] + shape.w[e + 1]) - rigidly;
+            matrix[(bent + e, rate)] = (beam.density[e] * beam.element_m).sqrt() * middle;
         }
         for (j, oscillator) in oscillators.iter().enumerate() {
             let moves = shape.w[oscillator.node] + modes.slosh_displacement[j][i];
-            matrix[(rigid + elements + j, rate)] = oscillator.mass.sqrt() * moves;
+            matrix[(bent + elements + j, rate)] = oscillator.mass.sqrt() * moves;
         }
     }
     Metric { matrix, sloshing }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ahv::parameters::Parameters;
+
+    #[test]
+    fn the_energy_of_a_mode_is_that_of_the_one_mass_matrix() {
+        let data = Data::embedded().unwrap();
+        let default = Parameters::new(&data).build;
+        for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
+            let chosen = Chosen::new(&data, &Build { configuration, ..default });
+            let (beam, oscillators) = chosen.structure().unwrap();
+            let modes = Modes::solve(&beam, &oscillators).unwrap();
+            let metric = Point::of(chosen, Gamma::Printed).unwrap().metric.matrix;
+            let energy = metric.tr_mul(&metric);
+            for i in 0..modes.count {
+                for k in 0..modes.count {
+                    let entry = energy[(RIGID + 2 * i + 1, RIGID + 2 * k + 1)];
+                    let scale = (modes.modal_mass[i] * modes.modal_mass[k]).sqrt();
+                    let expected = f64::from(i == k);
+                    assert!((entry / scale - expected).abs() < 1e-3, "{i}, {k}: {entry}");
+                }
+            }
+        }
+    }
 }

@@ -3,6 +3,8 @@
 use super::claims::Tested;
 use super::fit_errors::FitErrors;
 use super::interaction::Interaction;
+use super::laws::Laws;
+use super::origin::Origin;
 use super::sweep::Sweep;
 use super::tables::Table;
 use super::veering::Veering;
@@ -31,6 +33,9 @@ pub struct SetReport {
     pub claims: Vec<Tested>,
     pub figures: Vec<Figure>,
     pub sweeps: Vec<Sweep>,
+    /// The unstable pole over fuel under several laws of inertia.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub laws: Option<Laws>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interaction: Option<Interaction>,
 }
@@ -45,6 +50,8 @@ pub struct Report {
     pub figures: Vec<Figure>,
     pub veering: Vec<Veering>,
     pub sets: Vec<SetReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trade_off: Option<TradeOff>,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -60,8 +60,8 @@ pub struct Root {
     pub slosh: f64,
 }
 
-/// Turns states into velocities times the square roots of their masses: the rigid body's three,
-/// then the beam, then the sloshing masses.
+/// Turns states into velocities times the square roots of their masses: the three of flight, then what
+/// the modes move of the body, its mean motion first and then its bending, then the sloshing masses.
 #[derive(Debug, Clone)]
 pub struct Metric {
     pub matrix: DMatrix<f64>,
@@ -69,17 +69,15 @@ pub struct Metric {
     pub sloshing: usize,
 }
 
-/// Rows of the rigid body.
+/// Rows of the motion in flight.
 pub const RIGID_ROWS: usize = 3;
+/// Rows of the body's mean translation and rotation in the modes.
+pub const BODY_ROWS: usize = 2;
 
 impl Root {
-    fn new(matrix: &DMatrix<f64>, states: &[usize], metric: &Metric, value: Complex<f64>) -> Self {
+    fn new(matrix: &DMatrix<f64>, metric: &Metric, value: Complex<f64>) -> Self {
         let motion = direction(matrix, value);
-        let mut whole = DVector::zeros(metric.matrix.ncols());
-        for (entry, &state) in motion.iter().zip(states) {
-            whole[state] = *entry;
-        }
-        let velocity = metric.matrix.map(Complex::from) * whole;
+        let velocity = metric.matrix.map(Complex::from) * motion;
         let size = velocity.norm();
         // A motion without velocity, such as a height that stays, has no direction.
         let direction = if size > 0.0 { velocity.unscale(size) } else { velocity };
@@ -98,26 +96,22 @@ impl Root {
     }
 }
 
-/// Eigenvalues of a matrix over some of the states, with directions; unnamed.
-pub fn roots(
-    matrix: &DMatrix<f64>,
-    values: &[Complex<f64>],
-    states: &[usize],
-    metric: &Metric,
-) -> Vec<Root> {
-    values.iter().map(|&value| Root::new(matrix, states, metric, value)).collect()
+/// Eigenvalues of a matrix, with directions in its coordinates' metric; unnamed.
+pub fn roots(matrix: &DMatrix<f64>, values: &[Complex<f64>], metric: &Metric) -> Vec<Root> {
+    values.iter().map(|&value| Root::new(matrix, metric, value)).collect()
 }
 
 /// Names the pairs in which the structure moves, and returns the places of all others, fastest
 /// first: of as many pairs as there are modes the most elastic, of these the slosh modes are those
-/// in which most of the energy sloshes.
+/// in which most of the energy sloshes. Where a pair is missing, because a sensor on the body can turn
+/// the zeros of a flexible mode into two fast real ones, it is a flexible one.
 fn name_elastic(roots: &mut [Root], flexible: usize, slosh: usize) -> Vec<usize> {
     let upper = |i: &usize| roots[*i].value.im > 0.0;
     let mut pairs: Vec<usize> = (0..roots.len()).filter(upper).collect();
     pairs.sort_by(|&a, &b| roots[b].elastic.total_cmp(&roots[a].elastic));
     pairs.truncate(flexible + slosh);
     pairs.sort_by(|&a, &b| roots[a].slosh.total_cmp(&roots[b].slosh));
-    let split = flexible.min(pairs.len());
+    let split = pairs.len().saturating_sub(slosh);
     let (beam, liquid) = pairs.split_at_mut(split);
     for (part, name) in [(beam, Name::Flexible as fn(usize) -> Name), (liquid, Name::Slosh)] {
         part.sort_by(|&a, &b| roots[a].frequency().total_cmp(&roots[b].frequency()));
@@ -150,9 +144,11 @@ pub fn name_poles(roots: &mut [Root], slosh: usize, flexible: bool) {
     }
 }
 
-/// Names zeros: of the three real ones the slowest belongs to the height.
+/// Names zeros: of the slowest three that are left, the slowest belongs to the height. Faster ones come
+/// from a flexible mode and have no counterpart in the paper.
 pub fn name_zeros(roots: &mut [Root], slosh: usize, flexible: bool) {
     let rest = name_elastic(roots, if flexible { FLEXIBLE } else { 0 }, slosh);
+    let rest = &rest[rest.len().saturating_sub(RIGID_ZEROS)..];
     for (rank, &i) in rest.iter().enumerate() {
         roots[i].name = Some(match (rank + 1 == rest.len(), roots[i].value.re > 0.0) {
             (true, _) => Name::ZeroAtOrigin,
@@ -161,6 +157,9 @@ pub fn name_zeros(roots: &mut [Root], slosh: usize, flexible: bool) {
         });
     }
 }
+
+/// Zeros of a rigid body: its five states less V and gamma.
+const RIGID_ZEROS: usize = 3;
 
 /// The root of a name.
 pub fn find(roots: &[Root], name: Name) -> Option<&Root> {

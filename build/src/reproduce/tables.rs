@@ -3,6 +3,7 @@
 use super::point::Point;
 use super::roots::{Name, Root, find};
 use super::verdict::{Aim, Verdict, difference};
+use crate::identify::size;
 use crate::published::{Columns, Poles, Table1, Zeros};
 use serde::Serialize;
 
@@ -17,9 +18,9 @@ pub struct Cell {
     pub ours: Option<f64>,
     /// ours/paper - 1.
     pub difference: Option<f64>,
-    /// The best that implausible numbers can do: the far end of the trade-off.
+    /// The best that one inertia and free stations can do, all other numbers published.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub far: Option<f64>,
+    pub best: Option<f64>,
     #[serde(flatten)]
     pub verdict: Verdict,
 }
@@ -38,49 +39,68 @@ pub struct Table {
     pub title: &'static str,
     pub cells: Vec<Cell>,
     pub unprinted: Vec<Unprinted>,
+    /// Geometric means of the two real zeros, which eqs (3)-(4) do give (erratum 14).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub means: Vec<Cell>,
 }
 
 impl Table {
-    /// Puts the far end of the trade-off beside our numbers.
-    pub fn beside(mut self, far: Self) -> Self {
-        for (cell, far) in self.cells.iter_mut().zip(far.cells) {
-            cell.far = far.ours;
+    /// Puts the best that one inertia and free stations can do beside our numbers.
+    pub fn beside(mut self, best: Self) -> Self {
+        for (cell, best) in self.cells.iter_mut().zip(best.cells) {
+            cell.best = best.ours;
+        }
+        for (mean, best) in self.means.iter_mut().zip(best.means) {
+            mean.best = best.ours;
         }
         self
     }
 }
 
-const INERTIA: &str = "one inertia, small jump";
+const VEHICLE: &str = "one vehicle";
+const UNEQUAL: &str = "unequal pair";
 const DAMPING: &str = "structural damping";
-const DRIVE: &str = "drive of the mode";
+const SENSOR: &str = "where gamma is read";
+const RATES: &str = "small difference";
 const STIFFNESS: &str = "elastic coefficients";
 const BALANCE: &str = "balanced forces";
 const PHUGOID: &str = "scale height";
 const NEUTRAL: &str = "nearly neutral";
 
 /// The reasons in full.
-pub const REASONS: [(&str, &str); 7] = [
+pub const REASONS: [(&str, &str); 9] = [
     (
-        INERTIA,
-        "the size of the short period and of the real zeros goes with 1/sqrt(I_yy). Neither printed \
-         nor published I_yy gives the printed poles (erratum 3). Where a set has an identified one, \
-         it serves three columns at once, and elastic terms derived from rigid fits give too little \
-         of the printed jump from rigid to flexible (erratum 20).",
+        VEHICLE,
+        "one inertia, one offset of the mass centre and one set of tanks serve three columns that ask for \
+         slightly different ones (\"Where the printed digits come from\"). The published inertia fits none of \
+         them (erratum 3).",
+    ),
+    (
+        UNEQUAL,
+        "the printed pair is unequal; eqs (3)-(4) give a pair that is equal but for sign, and exactly so \
+         without a beam (erratum 14). Its size, the geometric mean, stands below the table.",
     ),
     (
         DAMPING,
-        "the paper does not print its structural damping; what the air adds to it is derived here \
-         from the mode shapes, not fitted (erratum 17).",
+        "the paper does not print its structural damping; one ratio for each mode serves both columns, and \
+         what the air adds is derived here from the mode shapes (erratum 17).",
     ),
     (
-        DRIVE,
-        "a zero lies where elevator and fuel leave V and gamma alone, so its place is decided by how \
-         the controls drive the mode. Those coefficients are not public (erratum 17). The printed zeros of the even \
-         column contradict its poles (erratum 19).",
+        SENSOR,
+        "the frequency of a zero depends on where on the body gamma is read and on how elevator and fuel \
+         drive the mode. The paper says neither; the station is identified, the drive is derived \
+         (erratum 17).",
+    ),
+    (
+        RATES,
+        "the decay of a zero is the small difference between what the sensor sees and what the controls \
+         drive, and answers to both far more than its frequency does. It is shown, and not identified.",
     ),
     (
         STIFFNESS,
-        "the air's stiffness on a mode is derived, since C^eta and N_i are not public (erratum 17).",
+        "the air's stiffness on a mode is derived, since C^eta and N_i were not found (erratum 17). It \
+         lowers the frequency of the first mode. The printed one rises with air, from 23.34 in Table 1 to \
+         23.78 in Table 2, though that of the even column does not.",
     ),
     (
         BALANCE,
@@ -106,7 +126,7 @@ impl Builder {
     fn put(&mut self, row: String, paper: f64, ours: Option<f64>, verdict: Verdict) {
         let difference = ours.and_then(|ours| difference(paper, ours));
         let column = self.column;
-        self.cells.push(Cell { row, column, paper, ours, difference, far: None, verdict });
+        self.cells.push(Cell { row, column, paper, ours, difference, best: None, verdict });
     }
 
     fn compare(&mut self, row: String, paper: f64, ours: Option<f64>, because: &str) {
@@ -147,6 +167,27 @@ fn unprinted(roots: &[Root]) -> Vec<Unprinted> {
         .collect()
 }
 
+/// To the digits that are printed.
+fn rounded(value: f64) -> f64 {
+    (value * 1e4).round() / 1e4
+}
+
+/// The right and the left real zero.
+pub fn real_zeros(zeros: &[Root]) -> Option<[f64; 2]> {
+    real_pair(zeros, [Name::RightZero, Name::LeftZero])
+}
+
+/// The unstable and the stable pole of the short period.
+pub fn short_period(poles: &[Root]) -> Option<[f64; 2]> {
+    real_pair(poles, [Name::UnstableShortPeriod, Name::StableShortPeriod])
+}
+
+fn real_pair(roots: &[Root], names: [Name; 2]) -> Option<[f64; 2]> {
+    let [right, left] = names.map(|name| find(roots, name).map(|root| root.value));
+    let (right, left) = (right?, left?);
+    (right.im == 0.0 && left.im == 0.0).then_some([right.re, left.re])
+}
+
 /// Natural frequencies; they depend on no coefficient set.
 pub fn table1(printed: &Table1, points: &[Point; 3]) -> Table {
     let mut cells = Vec::new();
@@ -165,7 +206,13 @@ pub fn table1(printed: &Table1, points: &[Point; 3]) -> Table {
         }
         cells.extend(builder.cells);
     }
-    Table { number: 1, title: "Natural frequencies, rad/s", cells, unprinted: Vec::new() }
+    Table {
+        number: 1,
+        title: "Natural frequencies, rad/s",
+        cells,
+        unprinted: Vec::new(),
+        means: Vec::new(),
+    }
 }
 
 pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
@@ -186,7 +233,7 @@ pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
         for (name, paper) in
             [Name::UnstableShortPeriod, Name::StableShortPeriod].into_iter().zip(printed.short_term)
         {
-            builder.real(poles, &name.to_string(), name, paper, INERTIA);
+            builder.real(poles, &name.to_string(), name, paper, VEHICLE);
         }
         let height = find(poles, Name::Height).map(|root| root.value.re);
         match rigid {
@@ -204,11 +251,12 @@ pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
         title: "Poles at Mach 8 and 25.9 km, rad/s",
         cells,
         unprinted: unprinted(&points[2].poles),
+        means: Vec::new(),
     }
 }
 
 pub fn table3(printed: &Columns<Zeros>, points: &[Point; 3]) -> Table {
-    let mut cells = Vec::new();
+    let (mut cells, mut means) = (Vec::new(), Vec::new());
     for ((column, printed), point) in COLUMNS.into_iter().zip(printed.all()).zip(points) {
         let rigid = column == COLUMNS[0];
         let mut builder = Builder { cells: Vec::new(), column };
@@ -221,16 +269,22 @@ pub fn table3(printed: &Columns<Zeros>, points: &[Point; 3]) -> Table {
                 let verdict = Verdict::Impossible { erratum: 14 };
                 builder.put(name.to_string(), paper, ours, verdict);
             } else {
-                builder.real(zeros, &name.to_string(), name, paper, INERTIA);
+                builder.real(zeros, &name.to_string(), name, paper, UNEQUAL);
             }
         }
-        builder.pairs(zeros, &printed.aeroelastic, [DRIVE, DRIVE]);
+        builder.pairs(zeros, &printed.aeroelastic, [RATES, SENSOR]);
         cells.extend(builder.cells);
+        let mut builder = Builder { cells: Vec::new(), column };
+        let [right, left, _] = printed.real;
+        let ours = real_zeros(zeros).map(size);
+        builder.compare(column.into(), rounded(size([right, left])), ours, VEHICLE);
+        means.extend(builder.cells);
     }
     Table {
         number: 3,
         title: "Transmission zeros from [δe, φ] to [V, γ], rad/s",
         cells,
         unprinted: unprinted(&points[2].zeros),
+        means,
     }
 }

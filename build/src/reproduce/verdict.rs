@@ -49,6 +49,9 @@ pub enum Verdict {
     /// A number within so many per cent, or a claim as it stands.
     Reproduced {
         within_percent: Option<f64>,
+        /// Size of what is claimed, if the claim has none.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        by: Option<String>,
     },
     /// Beyond its aim by no more than [`NEAR`].
     Near {
@@ -62,14 +65,14 @@ pub enum Verdict {
     NotReproduced {
         because: String,
     },
-    /// No vehicle under the printed equations can have this number.
+    /// No vehicle under eqs (3)-(4) has this number; a test of that erratum proves it.
     Impossible {
         erratum: u8,
     },
 }
 
 impl Verdict {
-    pub const CLAIMED: Self = Self::Reproduced { within_percent: None };
+    pub const CLAIMED: Self = Self::Reproduced { within_percent: None, by: None };
 
     /// Compares a number; `because` explains what is off. `signed` says that the sign means
     /// something: that of a frequency does not.
@@ -77,12 +80,12 @@ impl Verdict {
         let because = because.to_string();
         let Some(ours) = ours else { return Self::NotReproduced { because } };
         if paper == 0.0 && ours.abs() < ZERO {
-            return Self::Reproduced { within_percent: Some(0.0) };
+            return Self::within(0.0);
         }
         let percent = difference(paper, ours).map_or(f64::INFINITY, |d| 100.0 * d.abs());
         let (limit, near) = (aim.percent(), NEAR * aim.percent());
         if percent <= limit {
-            Self::Reproduced { within_percent: Some(limit) }
+            Self::within(limit)
         } else if percent <= near {
             Self::Near { within_percent: near, because }
         } else if signed && ours * paper > 0.0 && ours.abs() > ZERO {
@@ -92,12 +95,17 @@ impl Verdict {
         }
     }
 
+    fn within(percent: f64) -> Self {
+        Self::Reproduced { within_percent: Some(percent), by: None }
+    }
+
     /// In words. The mark in front lets the eye find its way, also without colour.
     pub fn text(&self) -> String {
         match self {
-            Self::Reproduced { within_percent: None } => "✓ reproduced".into(),
-            Self::Reproduced { within_percent: Some(0.0) } => "✓ reproduced: both 0".into(),
-            Self::Reproduced { within_percent: Some(limit) } => {
+            Self::Reproduced { by: Some(size), .. } => format!("✓ reproduced, by {size}"),
+            Self::Reproduced { within_percent: None, .. } => "✓ reproduced".into(),
+            Self::Reproduced { within_percent: Some(0.0), .. } => "✓ reproduced: both 0".into(),
+            Self::Reproduced { within_percent: Some(limit), .. } => {
                 format!("✓ reproduced within {limit} %")
             }
             Self::Near { within_percent, because } => {
@@ -106,7 +114,7 @@ impl Verdict {
             Self::SignOnly { because } => format!("◐ in sign only: {because}"),
             Self::NotReproduced { because } => format!("✗ not reproduced: {because}"),
             Self::Impossible { erratum } => {
-                format!("∅ cannot come from the equations: erratum {erratum}")
+                format!("∅ not by eqs (3)-(4): erratum {erratum}")
             }
         }
     }
@@ -135,7 +143,7 @@ impl Verdict {
 
 /// Names of the ranks.
 pub const RANKS: [&str; 5] =
-    ["✓ reproduced", "≈ near", "◐ in sign only", "✗ not reproduced", "∅ impossible: erratum"];
+    ["✓ reproduced", "≈ near", "◐ in sign only", "✗ not reproduced", "∅ not by eqs (3)-(4)"];
 
 /// ours/paper - 1: positive if ours is larger in size, below -1 if the sign differs; none where the
 /// paper prints 0.
@@ -153,7 +161,7 @@ mod tests {
 
     #[test]
     fn verdicts_follow_size_and_sign() {
-        let within = |limit| Verdict::Reproduced { within_percent: Some(limit) };
+        let within = Verdict::within;
         assert_eq!(Verdict::of(19.72, Some(19.721), Aim::Identified, false, ""), within(0.1));
         assert_eq!(Verdict::of(-2.0, Some(-2.09), Aim::Real, true, ""), within(5.0));
         assert_eq!(Verdict::of(0.0, Some(1e-9), Aim::Real, true, ""), within(0.0));

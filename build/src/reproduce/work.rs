@@ -4,7 +4,9 @@ use super::claims::{Evidence, test};
 use super::figures::{loci, shapes, tradeoff, veering as veering_figure};
 use super::fit_errors::FitErrors;
 use super::interaction::Interaction;
-use super::point::Point;
+use super::laws::Laws;
+use super::origin::Origin;
+use super::point::{Gamma, Point};
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport};
 use super::sets::Set;
 use super::sweep::{Parameter, Sweep};
@@ -14,6 +16,7 @@ use super::{Part, claims};
 use crate::figure::{Drawing, write};
 use crate::identify::{Place, TradeOff};
 use crate::published::Published;
+use ahv::assembly::Chosen;
 use ahv::modes::Modes;
 use ahv::parameters::Parameters;
 use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
@@ -70,8 +73,8 @@ impl<'a> Work<'a> {
             self.draw(&veering_figure::Figure(&veering), veering_figure::SIZE, "veering")?;
         }
         let trade_off = self.trade_off()?;
-        let far = trade_off.as_ref().map(|trade_off| self.far(trade_off)).transpose()?;
-        let set = |set| self.set(set, far.as_ref());
+        let best = trade_off.as_ref().map(|trade_off| self.best(trade_off)).transpose()?;
+        let set = |set| self.set(set, best.as_ref());
         Ok(Report {
             paper: PAPER,
             version: env!("CARGO_PKG_VERSION"),
@@ -79,6 +82,7 @@ impl<'a> Work<'a> {
             figures,
             veering,
             sets: sets.iter().map(set).collect::<Result<_>>()?,
+            origin: self.origin()?,
             trade_off,
             fit: self.wants(&[Part::Fit]).then(FitErrors::embedded).transpose()?,
             errata: self.wants(&[Part::Errata]).then_some(ERRATA),
@@ -98,18 +102,31 @@ impl<'a> Work<'a> {
         Ok(Some(trade_off))
     }
 
-    /// The vehicle with the numbers of the far end.
-    fn far(&self, trade_off: &TradeOff) -> Result<[Point; 3]> {
-        let data = Data { xu2015: trade_off.far.clone(), ..self.data.clone() };
-        points(&data, &Build { aero: AeroSet::Xu2015, ..self.base })
+    /// The vehicle of the best that one inertia and free stations can do.
+    fn best(&self, trade_off: &TradeOff) -> Result<[Point; 3]> {
+        let of = |configuration| {
+            let build = Build { configuration, aero: AeroSet::Xu2015, ..self.base };
+            let chosen = Chosen::with_set(&self.data, &build, &trade_off.best_set);
+            Point::of(chosen, Gamma::Printed)
+        };
+        let [rigid, even, slosh] = CONFIGURATIONS.map(of);
+        Ok([rigid?, even?, slosh?])
+    }
+
+    fn origin(&self) -> Result<Option<Origin>> {
+        if !self.wants(&[Part::Origin]) {
+            return Ok(None);
+        }
+        println!("where the printed digits come from");
+        Origin::new(&self.data, &self.base, &self.published).map(Some)
     }
 
     fn table1(&self) -> Result<Table> {
         Ok(table1(&self.published.table1, &points(&self.data, &self.base)?))
     }
 
-    fn set(&self, set: &Set, far: Option<&[Point; 3]>) -> Result<SetReport> {
-        let far = far.filter(|_| set.aero == AeroSet::Xu2015);
+    fn set(&self, set: &Set, best: Option<&[Point; 3]>) -> Result<SetReport> {
+        let best = best.filter(|_| set.aero == AeroSet::Xu2015);
         let base = Build { aero: set.aero, ..self.base };
         let mut report = SetReport {
             name: set.name,
@@ -118,6 +135,7 @@ impl<'a> Work<'a> {
             claims: Vec::new(),
             figures: Vec::new(),
             sweeps: Vec::new(),
+            laws: None,
             interaction: None,
         };
         let mut points = None;
@@ -128,11 +146,11 @@ impl<'a> Work<'a> {
         if let Some(points) = &points {
             if self.wants(&[Part::Table2]) {
                 let of = |points: &[Point; 3]| table2(&self.published.table2, points);
-                report.tables.push(beside(of(points), far.map(of)));
+                report.tables.push(beside(of(points), best.map(of)));
             }
             if self.wants(&[Part::Table3]) {
                 let of = |points: &[Point; 3]| table3(&self.published.table3, points);
-                report.tables.push(beside(of(points), far.map(of)));
+                report.tables.push(beside(of(points), best.map(of)));
             }
         }
         for (parameter, part, file, title) in SWEEPS {
@@ -153,7 +171,9 @@ impl<'a> Work<'a> {
             (report.sweeps.as_slice(), self.wants(&[Part::Claims]))
         {
             println!("{}: {} claims", set.name, claims::CLAIMS.len());
-            report.claims = test(&Evidence { fuel, damping, frequency });
+            let laws = Laws::new(&self.data, &base, claims::SLIGHT)?;
+            report.claims = test(&Evidence { fuel, damping, frequency, laws: &laws });
+            report.laws = Some(laws);
         }
         if let (Some(points), true) = (&points, self.wants(&[Part::Interaction])) {
             let sweep = report.sweeps.iter().find(|s| s.parameter == Parameter::Frequency);
@@ -217,9 +237,9 @@ fn points(data: &Data, base: &Build) -> Result<[Point; 3]> {
     Ok([rigid?, even?, slosh?])
 }
 
-fn beside(table: Table, far: Option<Table>) -> Table {
-    match far {
-        Some(far) => table.beside(far),
+fn beside(table: Table, best: Option<Table>) -> Table {
+    match best {
+        Some(best) => table.beside(best),
         None => table,
     }
 }

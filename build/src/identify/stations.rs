@@ -1,0 +1,82 @@
+//! The best that one inertia and free stations can do, and where the stations then are.
+
+use super::fit::CONVERGED;
+use super::numbers::{GAMMA_OFFSET, MASS_CENTRE, MOVABLE};
+use super::path::{Model, Point};
+use ahv::assembly::Chosen;
+use ahv::params::AeroData;
+use anyhow::{Result, anyhow};
+use serde::Serialize;
+
+/// What is free: where things sit, how much they weigh in pitch, how bending is damped and answered.
+/// Every coefficient of the rigid vehicle but the elevator's arm is the published one.
+const FREE: [&str; 8] = [
+    "inertia.i_yy_kg_m2_per_m",
+    MASS_CENTRE,
+    GAMMA_OFFSET,
+    "moment.delta_e",
+    "inertia.structural_damping.0",
+    "inertia.structural_damping.1",
+    "inertia.structural_damping.2",
+    "reference.elastic_scale",
+];
+/// Holds nothing back, and keeps the normal equations regular.
+const WEIGHT: f64 = 1e-4;
+
+const FOOT: f64 = 0.3048;
+
+/// Stations of a set, ft from the nose; columns are rigid, even mass, sloshing mass.
+#[derive(Debug, Clone, Serialize)]
+pub struct Stations {
+    pub i_yy_kg_m2_per_m: f64,
+    pub mass_centre_ft: [f64; 3],
+    /// Where gamma of Table 3 is read.
+    pub gamma_ft: [f64; 3],
+    /// Where the elevator's lift would have to act to make its moment.
+    pub elevator_ft: f64,
+}
+
+impl Model {
+    /// From a chosen point on, with nothing else moved.
+    pub fn best(&self, chosen: &Point) -> Result<Point> {
+        let held = MOVABLE.map(|(key, _)| !FREE.contains(&key));
+        let mut start = chosen.fit.point.clone();
+        start.iter_mut().zip(held).filter(|(_, held)| *held).for_each(|(x, _)| *x = 0.0);
+        self.fit(&start, &held, WEIGHT, CONVERGED)
+    }
+
+    /// Where things sit in a set.
+    pub fn stations(&self, set: &AeroData) -> Result<Stations> {
+        let (mut mass_centre_ft, mut gamma_ft) = ([0.0; 3], [0.0; 3]);
+        for ((centre, gamma), build) in
+            mass_centre_ft.iter_mut().zip(&mut gamma_ft).zip(&self.columns)
+        {
+            let chosen = Chosen::with_set(&self.data, build, set);
+            let (beam, oscillators) = chosen.structure()?;
+            *centre = beam.mass_properties(&oscillators).centre_m / FOOT;
+            *gamma = chosen.sensed_as_printed()?.build.stations.imu / FOOT;
+        }
+        let of = |fit: &ahv::params::PolynomialData| fit.delta_e.as_ref().map(|slope| slope.value);
+        let (Some(lift), Some(moment)) = (of(&set.lift), of(&set.moment)) else {
+            return Err(anyhow!("an elevator without lift or moment"));
+        };
+        let arm = -moment / lift * set.reference.chord_m.value;
+        let elevator_ft = (set.reference.moment_centre_m.value + arm) / FOOT;
+        let i_yy_kg_m2_per_m = set.inertia.i_yy_kg_m2_per_m.value;
+        Ok(Stations { i_yy_kg_m2_per_m, mass_centre_ft, gamma_ft, elevator_ft })
+    }
+}
+
+impl Stations {
+    /// In words.
+    pub fn text(&self) -> String {
+        let [_, even, slosh] = self.mass_centre_ft;
+        let [_, even_gamma, slosh_gamma] = self.gamma_ft;
+        format!(
+            "inertia {:.3e} kg m^2/m; mass centre {:.1} (rigid), {even:.1} (even mass), {slosh:.1} ft \
+             (sloshing mass); gamma read at {even_gamma:.1} and {slosh_gamma:.1} ft; elevator's lift at \
+             {:.1} ft",
+            self.i_yy_kg_m2_per_m, self.mass_centre_ft[0], self.elevator_ft
+        )
+    }
+}
