@@ -53,7 +53,7 @@ def linear_model(
 
         x, u, y = references(states), references(inputs), references(list(outputs))
         xdot = [rate.valueReference for rate in rates]
-        names = [*states, *outputs, "alpha_trim", "delta_e_trim", "phi_trim"]
+        names = [*states, *outputs, "alpha_trim", "delta_e_trim", "phi_trim", "mass_centre"]
         trim = dict(zip(names, fmu.getReal(references(names)), strict=True))
         return LinearModel(
             jacobian(xdot, x),

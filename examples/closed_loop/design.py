@@ -12,7 +12,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from law import PERIOD_S, Law
+from law import HIGH, LOW, PERIOD_S, Law
 from linear_model import LinearModel, linear_model
 
 MEASURED = ("V", "gamma", "q")
@@ -37,13 +37,20 @@ EFFORT = np.array([1.0 * DEG, 0.1])
 INPUT_NOISE = np.array([1.0 * DEG, 0.05])
 STATE_NOISE = {"V": 0.01, "gamma": 0.001 * DEG, "q": 0.01 * DEG}
 SENSOR_NOISE = np.array([0.5, 0.02 * DEG, 0.02 * DEG])
-# Limits of the vehicle's inputs, absolute.
-DELTA_E_LIMIT, PHI_LIMIT = 20.0 * DEG, 1.5
 
 
 def model(folder: str, **parameters: float) -> LinearModel:
     """Linear model of the FMU unzipped in `folder`, measured like the autopilot does."""
     return linear_model(folder, MEASURED, **parameters)
+
+
+def rigid_model(folder: str) -> LinearModel:
+    """The vehicle without bending and slosh, its mass centre where the default vehicle has it."""
+    centres = [
+        model(folder, configuration=configuration).trim["mass_centre"]
+        for configuration in (RIGID, SLOSH)
+    ]
+    return model(folder, configuration=RIGID, mass_centre_shift=centres[1] - centres[0])
 
 
 def sampled(full: LinearModel, states: Sequence[str]) -> ct.StateSpace:
@@ -66,7 +73,8 @@ def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1
     noise = plant.B @ np.diag((input_noise * INPUT_NOISE) ** 2) @ plant.B.T
     for name, deviation in STATE_NOISE.items():
         noise[states.index(name), states.index(name)] += deviation**2
-    kalman, _, _ = ct.dlqe(plant.A, np.eye(n), plant.C, noise, np.diag(SENSOR_NOISE**2))
+    # The gain of a predictor, as the law wants it: A P C' (C P C' + R)^-1.
+    predictor, _, _ = ct.dlqe(plant.A, np.eye(n), plant.C, noise, np.diag(SENSOR_NOISE**2))
     trim = full.trim
     at_trim = np.array([trim["delta_e_trim"], trim["phi_trim"]])
     return Law(
@@ -76,10 +84,10 @@ def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1
         C=plant.C,
         K=gain[:, :n],
         Ki=gain[:, n:],
-        L=plant.A @ kalman,
+        L=predictor,
         level=np.array([trim[name] for name in MEASURED]),
-        low=np.array([-DELTA_E_LIMIT, 0.0]) - at_trim,
-        high=np.array([DELTA_E_LIMIT, PHI_LIMIT]) - at_trim,
+        low=LOW - at_trim,
+        high=HIGH - at_trim,
     )
 
 

@@ -16,6 +16,8 @@ from law import Autopilot, Law
 
 MEASURED = ("V", "gamma", "q")
 COMMANDS = ("delta_e", "phi")
+TRIM = ("delta_e_trim", "phi_trim")
+AIR = ("w_gust", "u_gust")
 
 
 described = cache(read_model_description)
@@ -28,7 +30,8 @@ class NoFlight(Exception):
 class Vehicle:
     """An instance of the FMU unzipped in `folder`, trimmed with these parameters; or NoFlight.
 
-    `said` is its last message. Calls that do not return fmi2OK raise FMICallException.
+    `said` is its last message, `trim` delta_e, rad, and phi of level flight. Calls that do not
+    return fmi2OK raise FMICallException.
     """
 
     def __init__(self, folder: str, outputs: tuple[str, ...] = (), **parameters: float) -> None:
@@ -60,7 +63,8 @@ class Vehicle:
         self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
         self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
         self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
-        self._gust = self._references(("w_gust",))
+        self._air = self._references(AIR)
+        self.trim = np.array(self._fmu.getReal([self.variables[n].valueReference for n in TRIM]))
 
     def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
         if status != fmi2OK:
@@ -95,13 +99,12 @@ class Vehicle:
                 self._fmu.component, self._into, 2, orders, pointer(slopes)
             )
 
-    def gust(self, speed: float, rate: float) -> None:
-        """Set w_gust, m/s, up; it moves by `rate` per second within the next step."""
-        component, one = self._fmu.component, (ctypes.c_int * 1)(1)
-        self._fmu.fmi2SetReal(component, self._gust, 1, (ctypes.c_double * 1)(speed))
-        self._fmu.fmi2SetRealInputDerivatives(
-            component, self._gust, 1, one, (ctypes.c_double * 1)(rate)
-        )
+    def gust(self, air: np.ndarray, rates: np.ndarray) -> None:
+        """Set w_gust, up, and u_gust, along, m/s; they move by `rates` within the next step."""
+        component, orders = self._fmu.component, (ctypes.c_int * 2)(1, 1)
+        speeds, slopes = np.array(air, dtype=float), np.array(rates, dtype=float)
+        self._fmu.fmi2SetReal(component, self._air, 2, pointer(speeds))
+        self._fmu.fmi2SetRealInputDerivatives(component, self._air, 2, orders, pointer(slopes))
 
     def step(self, size_s: float) -> None:
         """One communication step."""
@@ -165,26 +168,25 @@ def fly(
     law: Law,
     commands: np.ndarray,
     outputs: tuple[str, ...] = (),
-    effect: np.ndarray | float = 1.0,
     gust: np.ndarray | None = None,
     **parameters: float,
 ) -> Flight:
-    """Fly `commands`, shape (steps, 2), in closed loop; `effect` multiplies delta_e and phi.
+    """Fly `commands`, shape (steps, 2), in closed loop.
 
-    `gust`, m/s, shape (steps + 1,): w_gust at the communication points, linear between them.
+    `gust`, m/s, shape (steps + 1, 2): AIR at the communication points, linear between them.
     What the law calls level flight is that of this vehicle, as if it had been trimmed before.
     """
-    rows, ended, pilot = [], "", Autopilot(law)
+    rows, ended = [], ""
     with Vehicle(folder, outputs, **parameters) as vehicle:
         values, held = vehicle.read(), np.zeros(2)
-        level = values[:3] - law.level
+        pilot = Autopilot(law.at(values[:3], vehicle.trim))
         try:
             for k, wish in enumerate(commands):
-                vehicle.command(held * effect)
+                vehicle.command(held)
                 if gust is not None:
                     vehicle.gust(gust[k], (gust[k + 1] - gust[k]) / law.period_s)
                 vehicle.step(law.period_s)
-                held = pilot.step(values[:3] - level, wish)
+                held = pilot.step(values[:3], wish)
                 values = vehicle.read()
                 rows.append([vehicle.time, *values, *held])
         except FMICallException:

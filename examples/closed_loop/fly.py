@@ -67,7 +67,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--manoeuvre", type=Path, default=design.HERE / "manoeuvre.csv")
-    parser.add_argument("--stop", type=float, default=120.0, help="s")
+    parser.add_argument("--stop", type=float, default=150.0, help="s")
     parser.add_argument("--patience", type=float, default=30.0, help="s without an answer")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()

@@ -6,12 +6,18 @@ One law serves all: the FMU (autopilot.py), the margins (design.py) and the ense
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
 from pathlib import Path
+from typing import Self
 
 import numpy as np
 
+# Limits of the commands delta_e, rad, and phi, absolute: what the elevator can do, and fuel that
+# keeps the burner from choking. Much more would also lift the nose more than the elevator can hold.
+LOW, HIGH = np.array([-np.pi / 9, 0.0]), np.array([np.pi / 9, 0.65])
+# An error of speed beyond this, m/s, counts as this: a larger one would take all of the elevator.
+SPEED_ERROR = 10.0
 # The design's period, and the masters' communication step.
 PERIOD_S = 0.01
 
@@ -34,6 +40,10 @@ class Law:
     level: np.ndarray  # (3,) what is measured in level flight
     low: np.ndarray  # (2,) smallest command, as a deviation from trim, rad and 1
     high: np.ndarray  # (2,) largest
+
+    def at(self, level: np.ndarray, trim: np.ndarray) -> Self:
+        """The same law about another level flight: V, gamma, q and delta_e, phi there."""
+        return replace(self, level=level, low=LOW - trim, high=HIGH - trim)
 
     def save(self, path: Path) -> None:
         """Write the numbers as JSON."""
@@ -78,7 +88,9 @@ class Autopilot:
         deviation = measured - law.level
         if measured[0] > 0.0 and isfinite(measured.sum()):
             predicted = self._with @ np.concatenate((*known, deviation))
-            integral = self.integral + law.period_s * (deviation[:2] - wanted)
+            error = deviation[:2] - wanted
+            error[0] = min(max(error[0], -SPEED_ERROR), SPEED_ERROR)
+            integral = self.integral + law.period_s * error
         else:
             self.missed += 1
             predicted = self._alone @ np.concatenate(known)
@@ -86,6 +98,7 @@ class Autopilot:
         away = np.concatenate((predicted, integral))
         # V and gamma are the first two states of every design model.
         away[:2] -= wanted
+        away[0] = min(max(away[0], -SPEED_ERROR), SPEED_ERROR)
         free = self._feedback @ away
         command = np.minimum(np.maximum(free, law.low), law.high)
         if (command == free).all():

@@ -47,8 +47,9 @@ HARD = {"slosh_frequency": 4.0, "slosh_damping": LIGHT}
 def study(folder: str, points: int | None = None) -> list[dict[str, float | str]]:
     """One row for every point of every sweep and every law."""
     nominal = [
-        design.design(design.model(folder, configuration=configuration), configuration)
-        for configuration in (design.RIGID, design.EVEN, design.SLOSH)
+        design.design(design.rigid_model(folder), design.RIGID),
+        design.design(design.model(folder, configuration=design.EVEN), design.EVEN),
+        design.design(design.model(folder)),
     ]
     rows = []
     for sweep, (fixed, values) in SWEEPS.items():
@@ -104,14 +105,14 @@ def hard_case(folder: str, stop_s: float, path: Path) -> dict[str, Flight]:
     """The climb of the manoeuvre on the hardest vehicle."""
     manoeuvre = np.genfromtxt(design.HERE / "manoeuvre.csv", delimiter=",", names=True)
     commands = wanted(manoeuvre, stop_s, design.PERIOD_S)
-    rigid = design.design(design.model(folder, configuration=design.RIGID), design.RIGID)
+    rigid = design.design(design.rigid_model(folder), design.RIGID)
     laws = {"rigid": rigid, "redesigned": design.design(design.model(folder, **HARD))}
-    flights = {name: fly(folder, law, commands, ("slosh1",), **HARD) for name, law in laws.items()}
+    flights = {name: fly(folder, law, commands, ("slosh2",), **HARD) for name, law in laws.items()}
     figure, axes = plt.subplots(1, 2, figsize=(9, 3), layout="constrained")
     for (name, flight), colour in zip(flights.items(), ("C0", "k"), strict=True):
         axes[0].plot(flight.rows[:, 0], np.degrees(flight.rows[:, 2]), colour, lw=1, label=name)
         axes[1].plot(flight.rows[:, 0], flight.rows[:, 4], colour, lw=1, label=name)
-    for axis, label in zip(axes, ("$\\gamma$, deg", "slosh in the fore tank, m"), strict=True):
+    for axis, label in zip(axes, ("$\\gamma$, deg", "slosh in the aft tank, m"), strict=True):
         axis.set_xlabel("time, s")
         axis.set_ylabel(label)
         axis.grid(alpha=0.3)

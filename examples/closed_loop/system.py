@@ -27,7 +27,7 @@ CONNECTIONS = [
 # Outputs to record beside the connected ones.
 RECORDED = [
     *[("vehicle", name) for name in ("h", "alpha", "eta1", "slosh1", "slosh2", "n_z")],
-    *[("vehicle", name) for name in ("delta_e_effective", "phi_effective")],
+    *[("vehicle", name) for name in ("delta_e_effective", "phi_effective", "choking_margin")],
     *[("autopilot", name) for name in ("missed", "saturated")],
 ]
 

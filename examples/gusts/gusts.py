@@ -1,4 +1,4 @@
-"""The closed loop in air that rises and falls: Dryden turbulence, single gusts of many lengths."""
+"""The closed loop in air that moves: Dryden turbulence, single gusts, from below and from ahead."""
 
 from __future__ import annotations
 
@@ -36,6 +36,7 @@ SHOWN_S = 20.0
 SEVERE = max(SIGMA_M_PER_S, key=SIGMA_M_PER_S.get)
 SHOWN = ("alpha", "n_z", "eta1", "slosh1")
 COLUMNS = ("gamma_deg", "incidence_deg", "n_z_g", "nose_mm", "slosh_mm", "elevator_deg")
+HEAD = ("time_s", "w_gust_m_per_s", "u_gust_m_per_s", *COLUMNS)
 PANELS = {
     "incidence_deg": "incidence, deg",
     "n_z_g": "load factor, g",
@@ -47,30 +48,36 @@ PANELS = {
 DAMPINGS = (0.05, 0.01)
 
 
-def autopilots(folder: str) -> tuple[Law, Law]:
+def autopilots(folder: str, **parameters: float) -> tuple[Law, Law]:
     """The autopilot of the closed loop, and one that leaves all controls in trim."""
-    law = design.design(design.model(folder))
+    law = design.design(design.model(folder, **parameters))
     idle = Law(**vars(law) | {"K": 0.0 * law.K, "Ki": 0.0 * law.Ki})
     return law, idle
 
 
+def vertical(air: np.ndarray) -> np.ndarray:
+    """Air that only rises and falls: w beside no u, shape (points, 2)."""
+    return np.column_stack([air, np.zeros_like(air)])
+
+
 def meet(folder: str, law: Law, air: np.ndarray, **parameters: float) -> Flight:
-    """Level flight through this air; shape (steps + 1,), m/s, up."""
+    """Level flight through this air; shape (steps + 1, 2), m/s, up and along."""
     return fly(folder, law, np.zeros((len(air) - 1, 2)), SHOWN, gust=air, **parameters)
 
 
-def values(rows: np.ndarray, w: np.ndarray | float) -> np.ndarray:
-    """COLUMNS of rows of a flight, shape (rows, 6); incidence is that to air rising at w."""
+def values(rows: np.ndarray, air: np.ndarray) -> np.ndarray:
+    """COLUMNS of rows of a flight, shape (rows, 6); incidence is that to this air."""
+    w, u = air.T
     _, speed, gamma, _, alpha, n_z, nose, slosh, elevator, _ = rows.T
-    met = alpha + gamma - np.arctan2(speed * np.sin(gamma) - w, speed * np.cos(gamma))
+    met = alpha + gamma - np.arctan2(speed * np.sin(gamma) - w, speed * np.cos(gamma) - u)
     degrees = [gamma / design.DEG, met / design.DEG]
     return np.column_stack([*degrees, n_z, nose * 1e3, slosh * 1e3, elevator / design.DEG])
 
 
 def away(folder: str, flight: Flight, air: np.ndarray) -> np.ndarray:
     """COLUMNS as changes from trimmed flight in still air."""
-    still = meet(folder, flight.pilot.law, np.zeros(2)).rows
-    return values(flight.rows, air[1 : len(flight.rows) + 1]) - values(still, 0.0)
+    still = meet(folder, flight.pilot.law, np.zeros((2, 2))).rows
+    return values(flight.rows, air[1 : len(flight.rows) + 1]) - values(still, np.zeros((1, 2)))
 
 
 def line(*cells: object) -> str:
@@ -88,7 +95,7 @@ def draw(axes: np.ndarray, rows: np.ndarray, label: str, style: str) -> None:
     """One flight, one panel below the other."""
     axes[0].plot(rows[:, 0], rows[:, 1], style, lw=1, label=label)
     for axis, name in zip(axes[1:], PANELS, strict=True):
-        axis.plot(rows[:, 0], rows[:, 2 + COLUMNS.index(name)], style, lw=1)
+        axis.plot(rows[:, 0], rows[:, 3 + COLUMNS.index(name)], style, lw=1)
 
 
 def main() -> None:
@@ -109,10 +116,11 @@ def main() -> None:
 
     def flown(name: str, air: np.ndarray, **parameters: float) -> np.ndarray:
         """Rows of time, air and COLUMNS, written as CSV; the flight must not end early."""
-        flight = meet(folder, law, air, **parameters)
+        own, _ = autopilots(folder, **parameters)
+        flight = meet(folder, own, air, **parameters)
         changes = away(folder, flight, air)
         rows = np.column_stack([flight.rows[:, 0], air[1 : len(changes) + 1], changes])
-        write(options.output / f"{name}.csv", ("time_s", "w_gust_m_per_s", *COLUMNS), rows)
+        write(options.output / f"{name}.csv", HEAD, rows)
         if flight.ended:
             sys.exit(f"error: the flight {name}.csv ended early: {flight.ended}")
         return rows
@@ -121,10 +129,10 @@ def main() -> None:
     print(line("exceeded with", "sigma, m/s", "slosh damping", *COLUMNS))
     steps = round(options.stop / period)
     for name, sigma in SIGMA_M_PER_S.items():
-        air = turbulence(sigma, speed, steps, period, options.seed)
+        air = vertical(turbulence(sigma, speed, steps, period, options.seed))
         for damping in DAMPINGS:
             rows = flown(f"turbulence_{name}_{damping:g}", air, slosh_damping=damping)
-            print(line(name, sigma, damping, *rows[:, 2:].std(axis=0)))
+            print(line(name, sigma, damping, *rows[:, 3:].std(axis=0)))
             if name == SEVERE and damping == DAMPINGS[0]:
                 draw(axes[:, 0], rows, "", "C0")
                 free = meet(folder, idle, air)
@@ -134,14 +142,22 @@ def main() -> None:
     print(f"\ngusts of {PEAK_M_PER_S:g} m/s, largest changes:")
     print(line("gradient, m", "slosh damping", *COLUMNS))
     largest, styles = [], iter(("C0", "C1--", "k:"))
+    along = []
     for gradient in GRADIENTS_M:
-        air = gust(PEAK_M_PER_S, gradient, speed, round(GUST_S / period), period, START_S)
+        shape = gust(PEAK_M_PER_S, gradient, speed, round(GUST_S / period), period, START_S)
         for damping in DAMPINGS:
-            rows = flown(f"gust_{gradient}_{damping:g}", air, slosh_damping=damping)
-            largest.append([gradient, damping, *np.abs(rows[:, 2:]).max(axis=0)])
+            rows = flown(f"gust_{gradient}_{damping:g}", vertical(shape), slosh_damping=damping)
+            largest.append([gradient, damping, *np.abs(rows[:, 3:]).max(axis=0)])
             print(line(gradient, *map(float, largest[-1][1:])))
             if damping == DAMPINGS[0] and gradient in DRAWN_M:
                 draw(axes[:, 1], rows, f"{gradient} m", next(styles))
+        # The same gust from ahead.
+        rows = flown(f"head_{gradient}", np.column_stack([0.0 * shape, -shape]))
+        along.append([gradient, *np.abs(rows[:, 3:]).max(axis=0)])
+    print("\nthe same from ahead:")
+    print(line("gradient, m", *COLUMNS))
+    for gradient, *rest in along:
+        print(line(gradient, *map(float, rest)))
     head = ("gradient_m", "slosh_damping", *COLUMNS)
     write(options.output / "largest.csv", head, np.array(largest))
 

@@ -1,4 +1,4 @@
-"""Fly one manoeuvre with several FMUs and draw the answers over each other.
+"""Fly one manoeuvre with several FMUs and draw the changes from level flight over each other.
 
 python examples/own_vehicle/compare.py target/ahv.fmu target/own/ahv.fmu
 """
@@ -31,15 +31,16 @@ LINES = (
     {"color": "#009e73", "linestyle": "-."},
     {"color": "#555555", "linestyle": ":"},
 )
-DEFLECTION = np.radians(0.25)
+DEFLECTION = np.radians(0.05)
 
 
 def doublet() -> np.ndarray:
     """Elevator down for 0.2 s, then up for 0.2 s."""
     times = (0.0, 0.1, 0.1, 0.3, 0.3, 0.5, 0.5)
     sizes = (0.0, 0.0, 1.0, 1.0, -1.0, -1.0, 0.0)
-    rows = [(t, size * DEFLECTION, 0.0, 0.0) for t, size in zip(times, sizes, strict=True)]
-    return np.array(rows, dtype=[(key, float) for key in ("time", "delta_e", "phi", "w_gust")])
+    still = ("phi", "w_gust", "u_gust")
+    rows = [(t, size * DEFLECTION, 0, 0, 0) for t, size in zip(times, sizes, strict=True)]
+    return np.array(rows, dtype=[(key, float) for key in ("time", "delta_e", *still)])
 
 
 def name(fmu: Path) -> str:
@@ -71,7 +72,8 @@ def main() -> None:
             str(fmu), stop_time=options.stop, output_interval=0.005, input=doublet(), output=names
         )
         for axis, (variable, _, factor) in zip(axes, PANELS, strict=True):
-            axis.plot(flight["time"], flight[variable] * factor, label=name(fmu), **line)
+            change = (flight[variable] - flight[variable][0]) * factor
+            axis.plot(flight["time"], change, label=name(fmu), **line)
         swings = ", ".join(
             f"{variable} {np.ptp(flight[variable]) * factor:.3g} {label.split(chr(10))[-1]}"
             for variable, label, factor in PANELS[1:]

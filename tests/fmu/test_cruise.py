@@ -13,8 +13,8 @@ import design
 from harness import Package
 
 # How far the flight may be from the trim of the fuel that is left, rad, rad and 1: the integrators
-# lag behind a trim that moves at about 0.0002 deg/s by seconds.
-LAG = {"alpha": 0.003 * design.DEG, "delta_e_effective": 0.006 * design.DEG, "phi_effective": 2e-4}
+# lag behind a trim that begins to move, the fuel ratio for the first half minute.
+LAG = {"alpha": 0.003 * design.DEG, "delta_e_effective": 0.006 * design.DEG, "phi_effective": 1e-3}
 
 
 def test_cruise_follows_the_trim_of_the_lighter_vehicle(package: Package) -> None:
@@ -25,9 +25,9 @@ def test_cruise_follows_the_trim_of_the_lighter_vehicle(package: Package) -> Non
         flown = found.flown[name][found.places]
         assert np.abs(flown - trims).max() < LAG[name], name
         assert np.ptp(trims) > 5.0 * LAG[name], name
-    assert np.abs(found.flown["V"] - found.flown["V"][0]).max() < 0.1
+    assert np.abs(found.flown["V"] - found.flown["V"][0]).max() < 0.2
     burnt = np.ptp(found.flown["fuel_mass"])
-    assert 1.5 < burnt / 120.0 < 1.7
+    assert 2.1 < burnt / 120.0 < 2.3
 
 
 def test_cruise_example_writes_its_table_and_picture(package: Package, tmp_path: Path) -> None:

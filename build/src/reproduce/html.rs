@@ -10,6 +10,8 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
     let mut events = Vec::new();
     let mut heading: Option<String> = None;
     let mut image = false;
+    // A number and its sign of per cent stay on one line.
+    let markdown = &markdown.replace(" %", "\u{a0}%");
     // Escaped letters arrive one by one: a verdict has to be whole.
     for event in TextMergeStream::new(Parser::new_ext(markdown, Options::ENABLE_TABLES)) {
         match event {

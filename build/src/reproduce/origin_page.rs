@@ -30,7 +30,7 @@ fn asked(all: &[Asked]) -> String {
     let row = |asked: &Asked| {
         [
             asked.column.to_string(),
-            format!("{:.0}", asked.inertia),
+            format!("{:.2}·10⁵", 1e-5 * asked.inertia),
             format!("{:.2}", asked.mass_centre_m),
             format!("{:.1}", asked.mass_centre_m / FOOT),
         ]
@@ -70,7 +70,7 @@ fn peak(cases: &[Case]) -> f64 {
 fn hypothesis() -> String {
     "## Where the printed digits come from\n\n\
      **Hypothesis.** All three columns come from the published curve fits (parker2007) with a pitch inertia near \
-     6.4·10⁵ kg m²/m, which is printed nowhere. The beam has its mass centre 8 to 10 ft further aft than the \
+     6.4·10⁵ kg m²/m, which is printed nowhere. The beam has its mass centre 8 to 11 ft further aft than the \
      rigid body and the printed densities have it. γ of Table 3 belongs to a point of the beam near \
      that mass centre, not to the mean axes of eq. (3). No source says so: this is inferred from the digits. \
      Every number below is computed by this command with the published coefficients, unless it says \
@@ -92,7 +92,7 @@ fn poles(origin: &Origin) -> String {
     text += &cases("rigid body", [&origin.rigid, &named]);
     text += &format!(
         "**Evidence: from rigid to beam the poles move and the zeros stay.** From rigid to even mass the \
-         printed product of the poles grows by a factor of {:.2}, that of the zeros by {:.2}.\n\n",
+         printed product of the poles changes by a factor of {:.2}, that of the zeros by {:.2}.\n\n",
         even.pole_product() / rigid.pole_product(),
         even.zero_product() / rigid.zero_product(),
     );
@@ -100,9 +100,9 @@ fn poles(origin: &Origin) -> String {
     text += "*Another inertia* scales both products alike, so it is not that (rigid body):\n\n";
     text += &cases("inertia", &origin.inertias);
     text += &format!(
-        "*Elastic terms* of any size do not do it. The unstable pole of the even column comes to {} at most, \
+        "*Elastic terms* up to 20 times those derived do not do it. The unstable pole of the even column comes to {} at most, \
          printed is {}; and the printed frequencies of that column are those of Table 1, without air, to \
-         every digit:\n\n",
+         every digit there:\n\n",
         value(peak(&origin.elastic)),
         value(even.poles[0])
     );
@@ -120,7 +120,7 @@ fn poles(origin: &Origin) -> String {
 fn outputs(origin: &Origin) -> String {
     let mut text = "**Evidence: the zeros are those of the body.** Even column of xu2015. With γ of the mean axes \
                     each pair of zeros stays near its pole; read on the body, near the mass centre, where the \
-                    paper fixes its beam, the pairs move up to where they are printed:\n\n"
+                    paper fixes its beam, the pairs move up by most of the way to the printed ones:\n\n"
         .to_string();
     text += &zeros(origin);
     text += "**Unequal real zeros: what would give them.** No vehicle under eqs (3)-(4) has them without a beam \

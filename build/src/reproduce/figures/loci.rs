@@ -88,7 +88,12 @@ impl Drawing for Loci<'_> {
             let both = [pick("poles"), pick("zeros")];
             // One range for both: the eye compares poles with zeros.
             let values = || both.iter().flatten().flat_map(|branch| &branch.values);
-            let x = range(values().map(|value| value.re), 0.1);
+            let mut x = range(values().map(|value| value.re), 0.1);
+            let enlarged = sweep.parameter == Parameter::Fuel && titles[0].starts_with("(e)");
+            if enlarged {
+                // Room on the right, where no branch goes.
+                x[1] = x[0] + (x[1] - x[0]) * 100.0 / f64::from(INSET);
+            }
             let y = range(values().map(|value| value.im), 1.0);
             for ((cell, title), branches) in row.split_evenly((1, 2)).iter().zip(titles).zip(&both)
             {
@@ -97,7 +102,7 @@ impl Drawing for Loci<'_> {
                 for branch in branches {
                     draw_branch(&plot, branch.name, &places(branch), sweep)?;
                 }
-                if sweep.parameter == Parameter::Fuel && titles[0].starts_with("(e)") {
+                if enlarged {
                     enlarge(&plot, branches, &both.concat(), sweep)?;
                 }
             }
@@ -105,6 +110,9 @@ impl Drawing for Loci<'_> {
         Ok(())
     }
 }
+
+/// Where the enlarged part of a panel begins, per cent of its width.
+const INSET: i32 = 43;
 
 /// A real root: the parameter upwards, so that its way along the axis does not hide itself.
 fn real_panel<B: DrawingBackend>(
@@ -138,7 +146,7 @@ fn places(branch: &Branch) -> Vec<(f64, f64)> {
 }
 
 /// While the tanks are not yet low, the sloshing frequencies stay together and turn back: larger, in
-/// the free corner of the panel.
+/// the free part of the panel.
 fn enlarge<B: DrawingBackend>(
     plot: &Plot<B>,
     branches: &[&Branch],
@@ -160,7 +168,7 @@ where
     let corner = plot
         .area
         .clone()
-        .shrink((width * 43 / 100, height * 3 / 100), (width * 56 / 100, height * 62 / 100));
+        .shrink((width * INSET / 100, height * 3 / 100), (width * 56 / 100, height * 62 / 100));
     corner.fill(&WHITE)?;
     let axes = Axes {
         title: "slosh, enlarged",
