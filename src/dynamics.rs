@@ -21,7 +21,7 @@ use crate::atmosphere::Atmosphere;
 use crate::burn::Burn;
 use crate::choking::Choking;
 use crate::intake::Intake;
-use crate::modes::MODES;
+use crate::modes::{FLEXIBLE, MODES};
 use crate::scalar::{Over, Scalar};
 use modal::Coefficients;
 use std::sync::Arc;
@@ -212,11 +212,14 @@ impl Vehicle {
             return rates;
         }
         let modal = modal::accelerations(airframe, met, x);
-        // Modes that a configuration does not have stay at rest: all that drives them is zero.
         for (i, acceleration) in modal.into_iter().enumerate() {
             let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
             rates[eta] = x[eta_dot];
             rates[eta_dot] = acceleration;
+        }
+        // Modes that a configuration does not have stay where they are, whatever their rates say.
+        if self.modes <= FLEXIBLE {
+            rates[RIGID + 2 * FLEXIBLE..RIGID + 2 * MODES].fill(S::constant(0.0));
         }
         rates
     }

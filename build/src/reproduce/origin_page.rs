@@ -100,7 +100,7 @@ fn poles(origin: &Origin) -> String {
     text += "*Another inertia* scales both products alike, so it is not that (rigid body):\n\n";
     text += &cases("inertia", &origin.inertias);
     text += &format!(
-        "*Elastic terms* of any size do not do it. The unstable pole of the even column comes to {} at most, \
+        "*Elastic terms* up to 20 times those derived do not do it. The unstable pole of the even column comes to {} at most, \
          printed is {}; and the printed frequencies of that column are those of Table 1, without air, to \
          every digit there:\n\n",
         value(peak(&origin.elastic)),
@@ -120,7 +120,7 @@ fn poles(origin: &Origin) -> String {
 fn outputs(origin: &Origin) -> String {
     let mut text = "**Evidence: the zeros are those of the body.** Even column of xu2015. With γ of the mean axes \
                     each pair of zeros stays near its pole; read on the body, near the mass centre, where the \
-                    paper fixes its beam, the pairs move up to where they are printed:\n\n"
+                    paper fixes its beam, the pairs move up by most of the way to the printed ones:\n\n"
         .to_string();
     text += &zeros(origin);
     text += "**Unequal real zeros: what would give them.** No vehicle under eqs (3)-(4) has them without a beam \
