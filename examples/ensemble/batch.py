@@ -14,9 +14,12 @@ import design
 import flight
 from law import Law
 
-# Parameters of the FMU that vary, and the elevator's effect over the one the FMU has.
-PARAMETERS = ("fuel_fraction", "slosh_damping", "slosh_frequency", "aero")
-VARIED = (*PARAMETERS, "elevator_effect")
+# What a flight adds to the parameters that vary; missing where there is no flight.
+MARGINS = design.Margins._fields
+NUMBERS = ("saturated_steps", "delta_e_trim", "slosh_largest_m", "n_z_largest")
+HISTORIES = ("V_m_per_s", "gamma_rad")
+NOTHING = dict.fromkeys((*MARGINS, *NUMBERS, *HISTORIES))
+OUTPUTS = ("slosh1", "slosh2", "n_z")
 SAMPLE_EVERY = 50  # steps between the kept points of a flight
 # Frequencies of a margin: finds them within 0.01 dB and 0.01 deg of four times as many.
 POINTS = 250
@@ -50,28 +53,27 @@ def fly_one(
     folder: str, law: Law, commands: np.ndarray, vehicle: dict[str, float]
 ) -> dict[str, object]:
     """Margins and flight of one vehicle."""
-    parameters = {name: vehicle[name] for name in PARAMETERS}
-    parameters["aero"] = int(parameters["aero"])
-    effect = np.array([vehicle["elevator_effect"], 1.0])
+    parameters = vehicle | {"aero": int(vehicle["aero"])}
     # By module: a cluster reloads modules it is sent, and the class is then another one.
     try:
-        flown = flight.fly(folder, law, commands, ("slosh1", "n_z"), effect, **parameters)
+        flown = flight.fly(folder, law, commands, OUTPUTS, **parameters)
     except flight.NoFlight as refused:
-        return vehicle | {"ended": str(refused), "flown_s": 0.0}
+        return vehicle | NOTHING | {"trimmed": False, "ended": str(refused), "flown_s": 0.0}
     full = design.model(folder, **parameters)
     plant = design.sampled(full, design.STATES[design.SLOSH])
-    plant.B[:] *= effect
     margins = design.margins(plant, law, points=POINTS)
     rows = flown.rows
     return (
         vehicle
         | {name: float(value) for name, value in margins._asdict().items()}
         | {
+            "trimmed": True,
             "ended": flown.ended,
             "flown_s": len(rows) * law.period_s,
-            "saturated_steps": flown.pilot.saturated,
-            "slosh_largest_m": float(np.abs(rows[:, 4]).max(initial=0.0)),
-            "n_z_largest": float(rows[:, 5].max(initial=0.0)),
+            "saturated_steps": float(flown.pilot.saturated),
+            "delta_e_trim": full.trim["delta_e_trim"],
+            "slosh_largest_m": float(np.abs(rows[:, 4:6]).max(initial=0.0)),
+            "n_z_largest": float(rows[:, 6].max(initial=0.0)),
             "V_m_per_s": rows[::SAMPLE_EVERY, 1].tolist(),
             "gamma_rad": rows[::SAMPLE_EVERY, 2].tolist(),
         }

@@ -1,4 +1,4 @@
-"""Monte Carlo in closed loop on Dask: slosh, fuel and coefficients vary, one autopilot flies all.
+"""Monte Carlo in closed loop on Dask: slosh, fuel, air and mass vary, one autopilot flies all.
 
 Results are written as they arrive, one Parquet file for every batch: run the same command again and
 only what is missing is flown.
@@ -9,9 +9,11 @@ from __future__ import annotations
 import argparse
 import json
 import logging
+import re
 import sys
 import time
 import zipfile
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -28,7 +30,7 @@ try:
 
     import design
     import pictures
-    from batch import SAMPLE_EVERY, VARIED, Task, fly_all
+    from batch import HISTORIES, MARGINS, NUMBERS, SAMPLE_EVERY, Task, fly_all
     from flight import wanted
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -41,24 +43,49 @@ MODULES = [
     HERE.parent / "linear_model.py",
     *(LOOP / f"{name}.py" for name in ("design", "flight", "law")),
 ]
+# Parameters of the FMU that vary, evenly between these limits; slosh_damping in its logarithm.
+VARIED = {
+    "fuel_fraction": (0.2, 1.0),
+    "slosh_damping": (0.005, 0.1),
+    "slosh_frequency": (4.0, 12.0),
+    "aero": (1, 3),
+    "elevator_factor": (0.8, 1.2),
+    "moment_alpha_factor": (0.8, 1.2),
+    "mass_factor": (0.95, 1.05),
+    "inertia_factor": (0.8, 1.2),
+    "density_factor": (0.85, 1.15),
+    "mass_centre_shift": (-0.3, 0.3),
+    "pitch_rate_factor": (0.0, 1.0),
+}
+SETS = ("xu2015", "parker2007", "shock_expansion")
+# A vehicle that cannot be trimmed has no flight: every part of the table knows its columns anyway.
+SCHEMA = pa.schema(
+    [(name, pa.float64()) for name in (*VARIED, *MARGINS, *NUMBERS, "flown_s")]
+    + [(name, pa.list_(pa.float64())) for name in HISTORIES]
+    + [("trimmed", pa.bool_()), ("ended", pa.string())]
+)
 BATCH = 25
 CONNECT_S = 10
 # How often a batch may take its worker down before it is given up.
 RETRIES = 3
 # Reasons printed; a cluster that is lost has the same for all its batches.
 SAID = 5
+# Slosh that the autopilot is expected to dislike: near the short period, and hardly damped.
+SLOW, LIGHT = 8.0, 0.03
+NUMBER = re.compile(r"(?<![a-z])[+-]?\d+(\.\d+)?(e[+-]?\d+)?")
 
 
 def sample(count: int, seed: int) -> list[dict[str, float]]:
     """Vehicles, a Latin hypercube: every parameter alone is spread evenly."""
     unit = qmc.LatinHypercube(len(VARIED), rng=seed).random(count)
-    columns = {
-        "fuel_fraction": 0.2 + 0.8 * unit[:, 0],
-        "slosh_damping": 0.005 * 20.0 ** unit[:, 1],  # 0.005 to 0.1, evenly in its logarithm
-        "slosh_frequency": 4.0 + 8.0 * unit[:, 2],
-        "aero": 1.0 + np.floor(3.0 * unit[:, 3]),  # the FMU's three sets of coefficients
-        "elevator_effect": 0.8 + 0.4 * unit[:, 4],
-    }
+    columns = {}
+    for (name, (low, high)), part in zip(VARIED.items(), unit.T, strict=True):
+        if name == "aero":
+            columns[name] = low + np.floor((high - low + 1) * part)
+        elif name == "slosh_damping":
+            columns[name] = low * (high / low) ** part
+        else:
+            columns[name] = low + (high - low) * part
     rows = np.column_stack([columns[name] for name in VARIED]).tolist()
     return [dict(zip(VARIED, row, strict=True)) for row in rows]
 
@@ -109,7 +136,7 @@ def fly(client: Client, tasks: dict[int, Task], fmu: bytes, folder: Path) -> Ite
             yield f"batch {futures[future]}: {why}"
             continue
         target = part(folder, futures[future])
-        pq.write_table(pa.Table.from_pylist(future.result()), target.with_suffix(".new"))
+        pq.write_table(pa.Table.from_pylist(future.result(), SCHEMA), target.with_suffix(".new"))
         target.with_suffix(".new").rename(target)
         future.release()
         yield ""
@@ -133,16 +160,52 @@ def same_as_before(folder: Path, what: dict[str, object]) -> None:
 
 
 def summary(table: pa.Table) -> str:
-    """The ensemble in two lines."""
-    phase = table["phase_deg"].to_numpy().astype(float)
-    ended = sum(bool(reason) for reason in table["ended"].to_pylist())
-    stable = phase[~np.isnan(phase)]
-    return (
-        f"{table.num_rows} vehicles: {np.isnan(phase).sum()} with an unstable loop, "
-        f"{ended} flights ended early\n"
-        f"phase margin of the others: least {stable.min(initial=np.inf):.1f}, "
-        f"median {np.median(stable):.1f} deg; below 30 deg: {(stable < 30).sum()}"
+    """The ensemble in some lines."""
+    trimmed = np.array(table["trimmed"])
+    columns = {name: table[name].to_numpy()[trimmed].astype(float) for name in (*VARIED, *MARGINS)}
+    saturated = table["saturated_steps"].to_numpy()[trimmed] > 0
+    ended = [reason for reason in np.array(table["ended"])[trimmed] if reason]
+    causes = Counter(
+        # "fmi2DoStep: alpha = 0.1745 reached the edge of its valid range ..."
+        reason.removeprefix("fmi2DoStep: ").split(" = ")[0]
+        for reason in ended
     )
+    phase = columns["phase_deg"]
+    unstable, kept = np.isnan(phase), phase[~np.isnan(phase)]
+    slow = (columns["slosh_frequency"] < SLOW) & (columns["slosh_damping"] < LIGHT)
+    lines = [
+        f"{table.num_rows} vehicles, {np.sum(~trimmed)} of them without a trim",
+        *(f"    {count} {why}" for why, count in refusals(table).most_common(SAID)),
+        f"{trimmed.sum()} flights: {len(ended)} ended early "
+        f"({', '.join(f'{count} {cause}' for cause, count in causes.most_common()) or 'none'}), "
+        f"{saturated.sum()} with an actuator at its limit",
+        f"{unstable.sum()} with an unstable loop, {np.sum(unstable & slow)} of these with slosh "
+        f"below {SLOW:g} rad/s and damping below {LIGHT:g}",
+        f"phase margin of the others: least {kept.min(initial=np.inf):.1f}, "
+        f"median {median(kept):.1f} deg; below 30 deg: {(kept < 30).sum()}",
+    ]
+    for number, name in enumerate(SETS, start=1):
+        own = columns["aero"] == number
+        if not own.any():
+            continue
+        lines.append(
+            f"{name}: {own.sum()} flights, {100 * unstable[own].mean():.0f} % unstable, "
+            f"median {median(phase[own & ~unstable]):.0f} deg"
+        )
+    return "\n".join(lines)
+
+
+def median(values: np.ndarray) -> float:
+    """NaN, if there are none."""
+    return float(np.median(values)) if values.size else np.nan
+
+
+def refusals(table: pa.Table) -> Counter[str]:
+    """Why vehicles have no trim, without the numbers."""
+    said = (
+        row["ended"] for row in table.select(["trimmed", "ended"]).to_pylist() if not row["trimmed"]
+    )
+    return Counter(NUMBER.sub("#", reason) for reason in said)
 
 
 def main() -> None:

@@ -42,13 +42,14 @@ def envelope(table: pa.Table, commands: np.ndarray, every_s: float, path: Path) 
         axis.set_xlabel("time, s")
         axis.set_ylabel(label)
         axis.grid(alpha=0.3)
-    axes[1].legend(fontsize=8, loc="lower right")
+    axes[1].legend(fontsize=8, loc="upper left")
     figure.savefig(path, dpi=110)
     plt.close(figure)
 
 
 def margins(table: pa.Table, path: Path) -> None:
     """Distribution of the phase margin, and where the unstable vehicles are."""
+    table = table.filter(table["trimmed"])
     phase = table["phase_deg"].to_numpy().astype(float)
     frequency = table["slosh_frequency"].to_numpy()
     damping = table["slosh_damping"].to_numpy()

@@ -12,13 +12,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from dask.distributed import Client, LocalCluster
 
 import design
 import ensemble
-from batch import PARAMETERS, Task, fly_all
+from batch import Task, fly_all
 from flight import wanted
 from harness import Package
 
@@ -173,8 +174,15 @@ def test_a_scheduler_that_dies_loses_no_result(
 def test_a_vehicle_that_cannot_be_trimmed_is_a_row_with_the_reason(package: Package) -> None:
     (vehicle,) = ensemble.sample(1, 1)
     law = design.design(design.model(str(package.folder)))
-    bad = vehicle | {"fuel_fraction": 2.0}
-    assert "fuel_fraction" in PARAMETERS
-    row, good = fly_all(Task(package.path.read_bytes(), law, np.zeros((100, 2)), [bad, vehicle]))
-    assert "fuel_fraction" in row["ended"] and row["flown_s"] == 0.0
-    assert good["ended"] == "" and good["flown_s"] == pytest.approx(1.0)
+    weak = vehicle | {"aero": 1.0, "fuel_fraction": 1.0, "elevator_factor": 0.5}
+    row, good = fly_all(Task(package.path.read_bytes(), law, np.zeros((100, 2)), [weak, vehicle]))
+    assert not row["trimmed"] and "delta_e" in row["ended"] and row["flown_s"] == 0.0
+    assert good["trimmed"] and good["ended"] == "" and good["flown_s"] == pytest.approx(1.0)
+    # The columns of a table do not depend on which vehicle comes first, and nobody is lost.
+    table = pa.Table.from_pylist([row, good], ensemble.SCHEMA)
+    assert set(row) == set(good) == set(table.column_names)
+    assert pa.Table.from_pylist([row], ensemble.SCHEMA).schema == table.schema
+    said = ensemble.summary(table)
+    assert "2 vehicles, 1 of them without a trim" in said and "1 flights" in said
+    (reason,) = ensemble.refusals(table)
+    assert "delta_e" in reason
