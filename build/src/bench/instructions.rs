@@ -63,9 +63,9 @@ pub fn measure(_: &Effort, report: &mut Report) -> Result<()> {
     }
     std::fs::create_dir_all(target().join("bench"))?;
     for (probe, what, aim) in [
-        ("rates", "right-hand side", "aim 700"),
-        ("outputs", "right-hand side and all outputs", "aim 1,000"),
-        ("steps", "step of 10 ms at 1e-8, in a doublet", "aim 20,000"),
+        ("rates", "right-hand side", "aim 750"),
+        ("outputs", "right-hand side and all outputs", "sensors included"),
+        ("steps", "step of 10 ms at 1e-8, in a doublet", "aim 8,000"),
     ] {
         let instructions = (count(probe, 2 * CALLS)? - count(probe, CALLS)?) / CALLS as f64;
         report.line(what, Spread::exact(instructions.round()), "instructions", aim);
