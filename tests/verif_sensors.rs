@@ -29,8 +29,9 @@ const FIRST: [f64; HALF] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
 const SECOND: [f64; HALF + 1] = [-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0];
 /// Of angles, rad, and pitch rates, rad/s: roundings of 10 m over a millisecond and the speed.
 const ANGLE: f64 = 1e-11;
-/// Of load factors: roundings of 1e-14 m, as the extrapolation leaves them, over the square of the spacing.
-const LOAD_FACTOR: f64 = 2e-8;
+/// Of load factors: roundings of 5e-14 m, as the extrapolation leaves them, times the sum of the weights, 6.5,
+/// over the square of the spacing and 9.8 m/s^2.
+const LOAD_FACTOR: f64 = 3.5e-8;
 /// While fuel burns the mass centre creeps through the body by 1 mm/s (errata, 22), and shapes turn.
 const CREEP_ANGLE: f64 = 1e-6;
 const CREEP_LOAD_FACTOR: f64 = 1e-4;
