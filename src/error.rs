@@ -101,4 +101,17 @@ pub enum Error {
         /// Time reached, s.
         time_s: f64,
     },
+    /// The interval takes more steps than anyone waits for.
+    #[error(
+        "a step of {asked_s:e} s is too long: {trials} steps of the integrator reach t = {time_s} s; \
+         go on from there with shorter communication steps"
+    )]
+    TooLong {
+        /// Length of the interval, s.
+        asked_s: f64,
+        /// Steps tried.
+        trials: usize,
+        /// Time reached, s.
+        time_s: f64,
+    },
 }

@@ -13,7 +13,7 @@ pub use snapshot::Snapshot;
 use crate::dop853::DOP853;
 use crate::dynamics::{Control, FUEL, Gust, Outputs, STATES, State, Vehicle};
 use crate::error::Error;
-use crate::integrate::{Arrival, Integrator, System};
+use crate::integrate::{Arrival, Integrator, MOST_TRIALS, System};
 use crate::parameters::Parameters;
 use crate::trim::Trim;
 use crate::vehicle::Data;
@@ -212,7 +212,7 @@ impl Flight {
     /// # Errors
     /// [`Error::Envelope`] on leaving the region where the curve fits hold, [`Error::Fuel`] when the
     /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if
-    /// the tolerance cannot be held.
+    /// the tolerance cannot be held, [`Error::TooLong`] if the interval takes too many steps.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
         let Self { ready, state, data, parameters, inputs, .. } = self;
         let ready = Ready::of(ready, state, data, parameters)?;
@@ -235,7 +235,7 @@ impl Flight {
         };
         let flown = match arrival {
             Arrival::Complete => length,
-            Arrival::Left(flown) | Arrival::Stuck(flown) => flown,
+            Arrival::Left(flown) | Arrival::Stuck(flown) | Arrival::Long(flown) => flown,
         };
         *inputs = inputs.after(flown);
         self.sample = None;
@@ -252,6 +252,10 @@ impl Flight {
             Arrival::Stuck(flown) => {
                 self.time += flown;
                 Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
+            }
+            Arrival::Long(flown) => {
+                self.time += flown;
+                Err(Error::TooLong { asked_s: length, trials: MOST_TRIALS, time_s: self.time })
             }
         }
     }

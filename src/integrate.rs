@@ -23,6 +23,8 @@ pub enum Arrival {
     Left(f64),
     /// Nowhere: no step holds the tolerance from this instant on.
     Stuck(f64),
+    /// At this instant, after [`MOST_TRIALS`].
+    Long(f64),
 }
 
 /// An explicit Runge-Kutta method with an error estimate made of two embedded methods.
@@ -114,6 +116,9 @@ const SMALLEST: f64 = 1e-13;
 const ROUNDINGS: f64 = 8.0;
 /// The instant at which the model ceases to hold is located to this length, s.
 const EXIT_RESOLUTION: f64 = 1e-9;
+/// Trials in one interval: seconds of computing, and hours of flight. A stable vehicle never leaves its
+/// envelope, so a longer interval would not end.
+pub const MOST_TRIALS: usize = 1_000_000;
 
 impl Integrator {
     /// A fresh integrator; `proposal` (s) is only a first guess.
@@ -138,7 +143,10 @@ impl Integrator {
         // First instant at which the model is known not to hold.
         let mut invalid = f64::INFINITY;
         let mut slope = first.unwrap_or_else(|| system.derivatives(t, x));
-        while t < end {
+        for _ in 0..MOST_TRIALS {
+            if t >= end {
+                return Arrival::Complete;
+            }
             let target = end.min(invalid);
             let remaining = target - t;
             let pieces = libm::ceil(remaining / self.proposal.min(method.longest())).max(1.0);
@@ -188,7 +196,7 @@ impl Integrator {
                 slope = trial.slope.unwrap_or_else(|| system.derivatives(t, x));
             }
         }
-        Arrival::Complete
+        if t < end { Arrival::Long(t) } else { Arrival::Complete }
     }
 }
 

@@ -204,6 +204,28 @@ fn verif_an_infinite_right_hand_side_is_reported() {
     assert!((t - 0.25).abs() < 1e-6 && (x[0] - t).abs() < 1e-9);
 }
 
+#[test]
+fn verif_an_interval_without_end_is_given_back_at_the_instant_reached() {
+    /// An oscillator of 1 rad/s, which never rests and never leaves.
+    struct Swing;
+    impl System<2> for Swing {
+        fn derivatives(&self, _: f64, x: &[f64; 2]) -> [f64; 2] {
+            [x[1], -x[0]]
+        }
+        fn holds(&self, _: f64, _: &[f64; 2]) -> bool {
+            true
+        }
+        fn nominal(&self) -> &[f64; 2] {
+            &[1.0, 1.0]
+        }
+    }
+    let (mut integrator, mut x) = (Integrator::new(1e-5, 0.1), [1.0, 0.0]);
+    let arrival = integrator.advance(&mut &DOP853, &Swing, &mut x, [0.0, 1e300], &mut None);
+    let Arrival::Long(t) = arrival else { panic!("{arrival:?}") };
+    // More than a tenth of a radian a step, and still on its circle but for the tolerance.
+    assert!(t > 1e5 && x[0].hypot(x[1]) < 1.5, "{t}, {x:?}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 

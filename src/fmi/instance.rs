@@ -227,9 +227,15 @@ impl Instance {
             // A part of the step was flown, so the status is discard. The integrator chose its own
             // steps down to the last valid instant: a shorter communication step gets no further,
             // so the instance asks for the end of the simulation in both cases.
-            Err(error @ (Error::Envelope { .. } | Error::Fuel { .. } | Error::StepSize { .. })) => {
+            // One that took too many is the exception.
+            Err(
+                error @ (Error::Envelope { .. }
+                | Error::Fuel { .. }
+                | Error::StepSize { .. }
+                | Error::TooLong { .. }),
+            ) => {
                 self.life.phase = Phase::StepFailed;
-                self.life.ended = true;
+                self.life.ended = !matches!(error, Error::TooLong { .. });
                 Err(Failure::Incomplete(error))
             }
             Err(error) => {
