@@ -23,6 +23,7 @@ use crate::beam::Beam;
 use crate::hermite::{Point, Shape};
 use crate::modes::{MODES, Modes};
 use crate::params::Geometry;
+#[cfg(doc)]
 use crate::rigid_body::RigidMotion;
 
 /// A part of the body that answers to local incidence.
@@ -145,7 +146,7 @@ impl Strips {
     pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
         let cut = geometry.fore_body_m.value;
         let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
-        let motion = RigidMotion::of(beam);
+        let motion = beam.rigid_motion();
         let mut moved = [[0.0; 2]; MODES];
         for (part, shape) in moved.iter_mut().zip(&modes.shape) {
             *part = motion.part(&shape.w, &shape.slope);

@@ -14,6 +14,7 @@
 
 use crate::beam::{Beam, MassProperties, Oscillator};
 use crate::error::Error;
+use std::borrow::Cow;
 
 /// Mean translation and rotation of the displacements of a beam.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -93,6 +94,14 @@ impl Moments {
 }
 
 impl Beam {
+    /// Its rigid motion: that of its moments, where these are known.
+    pub fn rigid_motion(&self) -> Cow<'_, RigidMotion> {
+        match self.moments.motion.rotation.is_empty() {
+            true => Cow::Owned(RigidMotion::of(self)),
+            false => Cow::Borrowed(&self.moments.motion),
+        }
+    }
+
     /// Gives the beam, with these sloshing masses on it, another mass centre and pitch inertia; the
     /// mass stays. Only the rigid motion of the beam changes.
     ///
