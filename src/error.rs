@@ -84,6 +84,21 @@ pub enum Error {
         /// The last valid instant, s.
         time_s: f64,
     },
+    /// A state so far off that the equations have no numbers.
+    #[error(
+        "{variable} = {value}: the equations have numbers in [{min}, {max}] only; \
+         try a state nearer to flight, or a shorter step"
+    )]
+    Numberless {
+        /// Name of the state.
+        variable: &'static str,
+        /// Its value.
+        value: f64,
+        /// Lower limit.
+        min: f64,
+        /// Upper limit.
+        max: f64,
+    },
     /// The tanks ran empty.
     #[error(
         "fuel_mass reached 0 at t = {time_s} s: the fuel ran out, and the thrust of the curve fits \

@@ -32,8 +32,8 @@ const XU2015: &str = "src/data/aero/xu2015.toml";
 /// The data as the files have them now: each identification rests on what the other one wrote.
 fn data() -> Result<Data> {
     Ok(Data {
-        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE))?)?,
-        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015))?)?,
+        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE))?)?.into(),
+        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015))?)?.into(),
         ..Data::embedded()?
     })
 }

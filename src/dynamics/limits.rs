@@ -1,12 +1,69 @@
-//! Where the model holds.
+//! Where the model holds, and where it has numbers at all.
 
 use super::stream::Stream;
-use super::{Airframe, Control, FUEL, Gust, State, Vehicle};
+use super::{Airframe, Control, FUEL, Gust, NOMINAL, STATES, State, Vehicle};
 use crate::envelope::{Limited, tightest};
 use crate::modes::SLOSH;
 
 /// Outputs that show the displacement of the liquid in the fore and aft tank.
 const SLOSH_NAMES: [&str; SLOSH] = ["slosh1", "slosh2"];
+
+/// Names of the states in the variable table.
+pub const STATE_NAMES: [&str; STATES] = [
+    "V",
+    "h",
+    "gamma",
+    "alpha",
+    "q",
+    "eta1",
+    "eta1_dot",
+    "eta2",
+    "eta2_dot",
+    "eta3",
+    "eta3_dot",
+    "eta_slosh1",
+    "eta_slosh1_dot",
+    "eta_slosh2",
+    "eta_slosh2_dot",
+    "fuel_mass",
+];
+
+/// Size of a state, over its typical size, up to which no term of the equations overflows.
+const FAR: f64 = 1e6;
+/// Least and largest value of each state for which the equations have numbers: far beyond those for
+/// which they hold, as integrators look there. Faster than any gust, so that the air always comes from
+/// ahead, and above the earth's centre.
+const NUMBERS: [State; 2] = {
+    let (mut least, mut largest) = ([0.0; STATES], [0.0; STATES]);
+    let mut i = 0;
+    while i < STATES {
+        largest[i] = FAR * NOMINAL[i];
+        least[i] = -largest[i];
+        i += 1;
+    }
+    least[0] = 0.5 * NOMINAL[0];
+    least[1] = -100.0 * NOMINAL[1];
+    [least, largest]
+};
+
+/// Whether the equations have numbers at a state.
+#[inline(always)]
+pub fn has_numbers(x: &State) -> bool {
+    let [least, largest] = &NUMBERS;
+    let mut inside = true;
+    for i in 0..STATES {
+        inside &= (x[i] >= least[i]) & (x[i] <= largest[i]);
+    }
+    inside
+}
+
+/// The first quantity of a state for which the equations have no numbers.
+pub fn numberless(x: &State) -> Option<Limited> {
+    let [least, largest] = &NUMBERS;
+    (0..STATES)
+        .map(|i| Limited { variable: STATE_NAMES[i], value: x[i], limits: [least[i], largest[i]] })
+        .find(|limited| limited.margin() < 0.0)
+}
 
 impl Vehicle {
     /// The state as moving air meets it: speed through the air for V, incidence to it for alpha. Still

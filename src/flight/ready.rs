@@ -9,19 +9,19 @@ use crate::linear::Linear;
 use crate::modes::{FLEXIBLE, MODES, SLOSH};
 use crate::parameters::{InputMode, Offsets, Parameters};
 use crate::trim::{self, Trim};
-use crate::vehicle::Data;
+use crate::vehicle::{Build, Data};
 
 /// An initialised flight's vehicle.
 #[derive(Debug, Clone)]
 pub struct Ready {
-    pub vehicle: Vehicle,
+    pub vehicle: Box<Vehicle>,
     pub trim: Trim,
     /// Initial state: the trim with its offsets.
     pub start: State,
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
     /// Integrates between the master's instants.
-    pub method: Exponential<STATES, SLOW, FAST>,
+    pub method: Box<Exponential<STATES, SLOW, FAST>>,
 }
 
 impl Ready {
@@ -29,7 +29,7 @@ impl Ready {
     fn new(data: &Data, parameters: &Parameters) -> Result<Self, Error> {
         let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
             *parameters;
-        let vehicle = Vehicle::new(data, &build)?;
+        let vehicle = built(data, &build)?;
         let steady = if trimmed {
             trim::trim(&vehicle, &build.condition)?
         } else {
@@ -54,13 +54,13 @@ impl Ready {
             // Of the condition, so that a start from it flies as one with trim does.
             false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
         };
-        let method = method(&vehicle, &about);
+        let method = boxed(&vehicle, &about);
         Ok(Self { vehicle, trim: steady, start, base, method })
     }
 
     /// What is in the slot; an empty one is filled, and the state becomes the initial one.
     pub fn of<'a>(
-        slot: &'a mut Option<Self>,
+        slot: &'a mut Option<Box<Self>>,
         state: &mut State,
         data: &Data,
         parameters: &Parameters,
@@ -68,7 +68,7 @@ impl Ready {
         match slot {
             Some(ready) => Ok(ready),
             None => {
-                let ready = Self::new(data, parameters)?;
+                let ready = Box::new(Self::new(data, parameters)?);
                 *state = ready.start;
                 Ok(slot.insert(ready))
             }
@@ -76,10 +76,22 @@ impl Ready {
     }
 }
 
+/// A vehicle, in a frame of its own: putting it together takes several times its room.
+#[inline(never)]
+fn built(data: &Data, build: &Build) -> Result<Box<Vehicle>, Error> {
+    Ok(Box::new(Vehicle::new(data, build)?))
+}
+
 /// Incidence, pitch rate and modes: the states that move fast.
 const FAST: usize = 2 + 2 * MODES;
 /// Those before them.
 const SLOW: usize = RIGID - 2;
+
+/// The method for a vehicle, likewise.
+#[inline(never)]
+fn boxed(vehicle: &Vehicle, steady: &Trim) -> Box<Exponential<STATES, SLOW, FAST>> {
+    Box::new(method(vehicle, steady))
+}
 
 /// The method for a vehicle, its fast motion decoupled about steady flight.
 pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, SLOW, FAST> {

@@ -1,6 +1,7 @@
 //! What a call can be refused for. The text is what a user reads in the master's log.
 
 use crate::error::Error;
+use crate::fmi::instance::LARGEST;
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::fmi::sys::{Status, StatusKind};
 
@@ -87,10 +88,21 @@ pub enum Failure {
         /// The highest order there is.
         highest: usize,
     },
-    /// A direction or derivative that is no number.
-    #[error("change of {variable} = {value} is refused: a finite number is needed")]
+    /// A direction or derivative that is no number, or too large a one.
+    #[error(
+        "change of {variable} = {value} is refused: a finite number is needed, of a size up to \
+         {LARGEST:e}"
+    )]
     Seed {
         /// Name of the variable.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
+    /// A trial state that is no number.
+    #[error("{variable} = {value} is refused: a state is a finite number; take a shorter step")]
+    State {
+        /// Name of the state.
         variable: &'static str,
         /// The refused value.
         value: f64,
@@ -164,14 +176,6 @@ pub enum Failure {
         /// State of the instance that it was taken of.
         phase: Phase,
     },
-    /// The master's integrator tries a state for which the model has no numbers.
-    #[error("{variable} = {value}: the model has no finite value at this trial state")]
-    Trial {
-        /// Name of the variable.
-        variable: &'static str,
-        /// What was computed.
-        value: f64,
-    },
     /// Bytes that are no FMU state of this model.
     #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
     Bytes {
@@ -187,7 +191,9 @@ impl Failure {
     /// go on with a value that was not taken.
     pub fn status(&self) -> Status {
         match self {
-            Self::Incomplete(_) | Self::NoStatus { .. } | Self::Trial { .. } => Status::Discard,
+            // The master's integrator tries a state without numbers: it can take a shorter step.
+            Self::Model(Error::Numberless { .. }) => Status::Discard,
+            Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
             _ => Status::Error,
         }
     }

@@ -1,6 +1,5 @@
 //! One instance: its experiment, its steps and its status.
 
-use crate::dynamics::STATES;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
 use crate::fmi::failure::{Failure, Outcome};
@@ -8,7 +7,6 @@ use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
-use crate::variables::{TABLE, known_rows};
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this
@@ -17,9 +15,25 @@ pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 
 /// Two instants this close, over the step, are the same: masters add up communication points in
 /// different ways, or pass them on as decimal text.
-pub const SAME_INSTANT: f64 = 1e-9;
+const SAME_INSTANT: f64 = 1e-6;
+/// So are two that differ by this, s, as both may have been rounded to nine decimals, unless the step
+/// is as short itself.
+const ROUNDED: f64 = 1.001e-9;
+/// Part of a step that is no rounding in any case.
+const LARGEST_SHARE: f64 = 0.25;
 /// So are two that are this many roundings apart.
 const ROUNDINGS: f64 = 64.0;
+
+/// Largest step (s), rate of an input or change that is taken: what is made of it does not overflow.
+pub const LARGEST: f64 = 1e30;
+
+/// Whether two instants (s) about a step (s) apart from others are the same. Their halves are compared,
+/// as the largest numbers are too far apart.
+fn same_instant(a: f64, b: f64, step: f64) -> bool {
+    let rounding = ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
+    let share = (SAME_INSTANT * step).max(ROUNDED.min(LARGEST_SHARE * step));
+    (0.5 * a - 0.5 * b).abs() <= 0.5 * rounding.max(share)
+}
 
 /// What an instance remembers besides the flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,6 +82,11 @@ impl Instance {
         let flight = pristine.clone();
         let log = Log::new(logging_on);
         Ok(Self { interface, pristine, flight, life: Life::NEW, logging_on, log })
+    }
+
+    /// Whether the master integrates, and is at it.
+    pub(super) fn exchanging(&self) -> bool {
+        matches!(self.life.phase, Phase::EventMode | Phase::ContinuousTimeMode)
     }
 
     /// State in the standard's table.
@@ -179,44 +198,37 @@ impl Instance {
     }
 
     /// `fmi2DoStep`. Rounding in `point` is accepted; the step then starts at the instance's own
-    /// time, and ends exactly at `point + step`.
+    /// time, and ends exactly at `point + step`: the clock follows the master's, and what one point was
+    /// rounded by is not in the next.
     ///
     /// # Errors
     /// [`Failure::Argument`], [`Failure::CommunicationPoint`] and [`Failure::PastStop`] change
     /// nothing. After [`Failure::Incomplete`] time and state are those of the last valid instant.
     pub fn do_step(&mut self, point: f64, step: f64) -> Outcome {
         let time = self.flight.time();
-        if !(step > 0.0 && step.is_finite()) {
+        if !(step > 0.0 && step <= LARGEST) {
             return Err(Failure::Argument {
                 argument: "communicationStepSize",
                 value: step,
-                expected: "a positive number is needed".to_string(),
+                expected: format!("a positive number up to {LARGEST:e} is needed"),
             });
         }
+        if !(point.is_finite() && same_instant(point, time, step)) {
+            return Err(Failure::CommunicationPoint { asked: point, step, time });
+        }
         let end = point + step;
-        let same = |a: f64, b: f64| {
-            let rounding = ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
-            (a - b).abs() <= rounding.max(SAME_INSTANT * step)
-        };
-        if !(end.is_finite() && same(point, time) && end >= time) {
+        if end < time {
             return Err(Failure::CommunicationPoint { asked: point, step, time });
         }
         if let Some(stop) = self.life.stop
             && end > stop
-            && !same(end, stop)
+            && !same_instant(end, stop, step)
         {
             return Err(Failure::PastStop { end, stop });
         }
         // A step below the resolution of time ends where it starts.
         if end == time {
             return Ok(());
-        }
-        let inputs = self.flight.inputs().at(end - time);
-        if let Some(i) = inputs.iter().position(|input| !input.is_finite()) {
-            return Err(Failure::NotFinite {
-                variable: TABLE[known_rows()[STATES + i]].name,
-                value: inputs[i],
-            });
         }
         if cfg!(feature = "idle") {
             self.flight.set_time(end);

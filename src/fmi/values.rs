@@ -2,8 +2,9 @@
 
 use crate::dynamics::{STATES, State};
 use crate::flight::{INPUT_ORDER, INPUTS};
+use crate::fmi::exchange::check_state;
 use crate::fmi::failure::{Failure, Outcome};
-use crate::fmi::instance::Instance;
+use crate::fmi::instance::{Instance, LARGEST};
 use crate::fmi::lifecycle::Phase;
 use crate::variables::{Kind, Role, TABLE, Variable};
 
@@ -81,19 +82,25 @@ impl Instance {
 
     /// Outputs are computed when read, so they fit inputs set since the last step. The standard
     /// forbids masters to ask for that in co-simulation; some do, and consistent values harm nobody.
+    /// States are there, also a trial state for which no outputs can be computed.
     fn read(
         &mut self,
         references: &[u32],
         asked: &'static str,
         mut write: impl FnMut(usize, f64),
     ) -> Outcome {
-        let mut computed = false;
+        let (mut initialised, mut computed) = (false, false);
         for &reference in references {
-            let role = variable(reference, asked)?.role;
-            computed |= !matches!(role, Role::Input(_) | Role::Parameter);
+            match variable(reference, asked)?.role {
+                Role::Input(_) | Role::Parameter => {}
+                Role::OutputState(_) | Role::LocalState(_) | Role::Calculated => initialised = true,
+                Role::Output | Role::Derivative(_) => computed = true,
+            }
         }
         if computed {
             self.flight.evaluate()?;
+        } else if initialised {
+            self.flight.initialise()?;
         }
         for &reference in references {
             let variable = variable(reference, asked)?;
@@ -111,8 +118,8 @@ impl Instance {
     /// `fmi2SetReal`.
     ///
     /// # Errors
-    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::TooLate`];
-    /// [`Failure::Model`] if a value is refused. No value is set then.
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::TooLate`],
+    /// [`Failure::State`]; [`Failure::Model`] if a value is refused. No value is set then.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Outcome {
         self.write(references, REAL, |i| values[i])
     }
@@ -134,7 +141,8 @@ impl Instance {
     }
 
     /// Inputs are accepted before initialisation too: the standard says no, but several masters set
-    /// all start values there.
+    /// all start values there. So are states while the master integrates, which several of them do
+    /// in place of `fmi2SetContinuousStates`: the standard's text allows what its table forbids.
     fn write(
         &mut self,
         references: &[u32],
@@ -142,15 +150,31 @@ impl Instance {
         value: impl Fn(usize) -> f64,
     ) -> Outcome {
         let before = matches!(self.phase(), Phase::Instantiated | Phase::InitializationMode);
+        let exchanging = self.exchanging();
+        let mut state = *self.flight.state();
+        let mut moved = false;
         for (i, &reference) in references.iter().enumerate() {
             let variable = variable(reference, asked)?;
-            if variable.role == Role::Parameter && !before {
-                return Err(Failure::TooLate { variable: variable.name, value: value(i) });
+            match variable.role {
+                Role::OutputState(number) | Role::LocalState(number) if exchanging => {
+                    check_state(variable.name, value(i))?;
+                    state[number] = value(i);
+                    moved = true;
+                }
+                Role::Parameter if !before => {
+                    return Err(Failure::TooLate { variable: variable.name, value: value(i) });
+                }
+                _ => variable.check(value(i))?,
             }
-            variable.check(value(i))?;
         }
         for (i, &reference) in references.iter().enumerate() {
-            variable(reference, asked)?.set(&mut self.flight, value(i))?;
+            let variable = variable(reference, asked)?;
+            if variable.settable() {
+                variable.set(&mut self.flight, value(i))?;
+            }
+        }
+        if moved {
+            self.flight.set_state(&state);
         }
         Ok(())
     }
@@ -174,9 +198,7 @@ impl Instance {
         let (mut state, mut input) = ([0.0; STATES], [0.0; INPUTS]);
         for (&reference, &change) in knowns.iter().zip(seed) {
             let known = variable(reference, REAL)?;
-            if !change.is_finite() {
-                return Err(Failure::Seed { variable: known.name, value: change });
-            }
+            check_change(known, change)?;
             match known.role {
                 Role::OutputState(i) | Role::LocalState(i) => state[i] += change,
                 Role::Input(i) => input[i] += change,
@@ -234,9 +256,7 @@ impl Instance {
             let Role::Input(input) = variable.role else {
                 return Err(no_derivative(variable, "with a derivative: inputs are"));
             };
-            if !value.is_finite() {
-                return Err(Failure::Seed { variable: variable.name, value });
-            }
+            check_change(variable, value)?;
             Ok((input, order(variable, orders[i], INPUT_ORDER)?, value))
         };
         for i in 0..inputs.len() {
@@ -282,6 +302,12 @@ impl Instance {
         }
         Ok(())
     }
+}
+
+/// Whether a variable can change by so much.
+fn check_change(variable: &Variable, value: f64) -> Outcome {
+    let refused = Failure::Seed { variable: variable.name, value };
+    (value.abs() <= LARGEST).then_some(()).ok_or(refused)
 }
 
 fn no_derivative(variable: &Variable, served: &'static str) -> Failure {

@@ -40,7 +40,7 @@ impl<'a> Slave<'a> {
         Self::with(api, sys::Type::CO_SIMULATION, on)
     }
 
-    fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
+    pub fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
         let sink = Box::new(Sink::default());
         let guid = CString::new(guid()).unwrap();
         let functions = callbacks(&sink);
@@ -133,6 +133,12 @@ impl<'a> Slave<'a> {
     pub fn set_reals(&self, references: &[u32], values: &[f64]) -> Status {
         assert_eq!(references.len(), values.len());
         unsafe { (self.api.set_real)(self.c, references.as_ptr(), values.len(), values.as_ptr()) }
+    }
+
+    /// Sets a derivative of an input for the next step.
+    pub fn lead(&self, name: &str, order: i32, value: f64) -> Status {
+        let set = self.api.set_input_derivatives;
+        unsafe { set(self.c, &reference(name), 1, &order, &value) }
     }
 
     pub fn set_integer(&self, name: &str, value: i32) -> Status {
