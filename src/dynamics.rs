@@ -13,7 +13,7 @@ mod sensors;
 mod stream;
 
 pub use airframe::{Airframe, COEFFICIENTS};
-pub use limits::{STATE_NAMES, has_numbers, numberless};
+pub use limits::{STATE_NAMES, is_finite, numberless};
 pub use outputs::{Loads, Outputs};
 pub use sensors::{Imu, Stations};
 

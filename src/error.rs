@@ -86,7 +86,7 @@ pub enum Error {
     },
     /// A state so far off that the equations have no numbers.
     #[error(
-        "{variable} = {value}: the equations have numbers in [{min}, {max}] only; \
+        "{variable} = {value:e}: the equations have numbers in [{min:e}, {max:e}] only; \
          try a state nearer to flight, or a shorter step"
     )]
     Numberless {

@@ -200,7 +200,7 @@ impl Integrator {
                 self.proposal = wanted;
                 continue;
             }
-            if !(system.has_numbers(&trial.next) && system.holds(t + h, &trial.next)) {
+            if !system.holds(t + h, &trial.next) {
                 // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
                 invalid = target.min(t + h);
                 continue;
@@ -239,6 +239,8 @@ impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
             // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
             _ => high * high / libm::sqrt(high * high + 0.01 * low * low).max(f64::MIN_POSITIVE),
         };
+        // No stage has met the step's end.
+        let error = if attempt.system.has_numbers(&next) { error } else { f64::INFINITY };
         Trial { next, slope: None, error, order: self.error_order }
     }
 }

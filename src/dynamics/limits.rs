@@ -1,7 +1,7 @@
 //! Where the model holds, and where it has numbers at all.
 
 use super::stream::Stream;
-use super::{Airframe, Control, FUEL, Gust, NOMINAL, STATES, State, Vehicle};
+use super::{Airframe, Control, FUEL, Gust, STATES, State, Vehicle};
 use crate::envelope::{Limited, tightest};
 use crate::modes::SLOSH;
 
@@ -28,40 +28,33 @@ pub const STATE_NAMES: [&str; STATES] = [
     "fuel_mass",
 ];
 
-/// Size of a state, over its typical size, up to which no term of the equations overflows.
-const FAR: f64 = 1e6;
-/// Least and largest value of each state for which the equations have numbers: far beyond those for
-/// which they hold, as integrators look there. Faster than any gust, so that the air always comes from
-/// ahead, and above the earth's centre.
-const NUMBERS: [State; 2] = {
-    let (mut least, mut largest) = ([0.0; STATES], [0.0; STATES]);
-    let mut i = 0;
-    while i < STATES {
-        largest[i] = FAR * NOMINAL[i];
-        least[i] = -largest[i];
-        i += 1;
-    }
-    least[0] = 0.5 * NOMINAL[0];
-    least[1] = -100.0 * NOMINAL[1];
-    [least, largest]
-};
+/// Size up to which a state, in its unit, leaves every term of the equations finite: a power of two.
+const FAR: f64 = (1_u64 << 33) as f64;
+/// Slowest speed, m/s, for which the equations have numbers: faster than any gust, so that the air
+/// comes from ahead.
+const SLOWEST: f64 = 500.0;
+/// Lowest altitude likewise, m: above the earth's centre.
+const LOWEST: f64 = -1e6;
 
-/// Whether the equations have numbers at a state.
+/// Whether a trial state of our own integrator is so small that nothing overflows. Of one that is too
+/// large, over [`FAR`] and by two, the exponent has its highest bit.
 #[inline(always)]
-pub fn has_numbers(x: &State) -> bool {
-    let [least, largest] = &NUMBERS;
-    let mut inside = true;
-    for i in 0..STATES {
-        inside &= (x[i] >= least[i]) & (x[i] <= largest[i]);
-    }
-    inside
+pub fn is_finite(x: &State) -> bool {
+    const HIGHEST: u64 = 1 << 62;
+    let bits = x.iter().fold(0, |bits, value| bits | (value * (2.0 / FAR)).to_bits());
+    bits & HIGHEST == 0
 }
 
-/// The first quantity of a state for which the equations have no numbers.
+/// The first state for which the equations have no numbers. An integrator from outside may look far
+/// beyond the region in which they hold.
 pub fn numberless(x: &State) -> Option<Limited> {
-    let [least, largest] = &NUMBERS;
+    let least = |i: usize| match i {
+        0 => SLOWEST,
+        1 => LOWEST,
+        _ => -FAR,
+    };
     (0..STATES)
-        .map(|i| Limited { variable: STATE_NAMES[i], value: x[i], limits: [least[i], largest[i]] })
+        .map(|i| Limited { variable: STATE_NAMES[i], value: x[i], limits: [least(i), FAR] })
         .find(|limited| limited.margin() < 0.0)
 }
 

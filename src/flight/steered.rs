@@ -1,7 +1,7 @@
 //! The vehicle as the integrator sees it.
 
 use super::{INPUTS, Inputs};
-use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle, has_numbers};
+use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle, is_finite};
 use crate::integrate::System;
 
 /// A vehicle under the controls of one step.
@@ -47,7 +47,7 @@ impl System<STATES> for Steered<'_> {
     }
     #[inline(always)]
     fn has_numbers(&self, x: &State) -> bool {
-        has_numbers(x)
+        is_finite(x)
     }
     fn steady(&self) -> bool {
         self.held.is_some()
