@@ -53,7 +53,8 @@ pub enum Error {
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
         "no trim at mach0 = {mach}, altitude0 = {altitude_m} m, gamma0 = {gamma_rad} rad: {limit} \
-         (largest residual {residual:.3e}); choose another flight condition or set trim = false"
+         (largest residual {residual:.3e}); choose another flight condition, factors nearer to 1, or \
+         trim = false"
     )]
     Trim {
         /// Mach number asked for.
@@ -70,7 +71,8 @@ pub enum Error {
     /// The flight reached the edge of the region in which the curve fits hold.
     #[error(
         "{variable} = {value:.6} reached the edge of its valid range [{min:.6}, {max:.6}] at \
-         t = {time_s} s; beyond it the curve fits mean nothing, so the flight ends there"
+         t = {time_s} s; {}, so the flight ends there",
+        beyond(variable)
     )]
     Envelope {
         /// Name of the variable at the edge of its range.
@@ -129,4 +131,13 @@ pub enum Error {
         /// Time reached, s.
         time_s: f64,
     },
+}
+
+/// What is beyond the range of a limited variable.
+fn beyond(variable: &str) -> &'static str {
+    match variable {
+        "slosh1" | "slosh2" => "beyond it the liquid would leave its depth",
+        "choking_margin" => "beyond it the burner chokes",
+        _ => "beyond it the curve fits mean nothing",
+    }
 }

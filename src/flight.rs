@@ -1,6 +1,7 @@
 //! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
 
 mod inputs;
+mod left;
 mod ready;
 mod snapshot;
 mod steered;
@@ -11,13 +12,14 @@ pub use ready::method;
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, FUEL, Gust, Outputs, STATES, State, Vehicle, numberless};
+use crate::dynamics::{Control, Gust, Outputs, STATES, State, Vehicle, numberless};
 use crate::envelope::Limited;
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, MOST_TRIALS, System};
 use crate::parameters::Parameters;
 use crate::trim::Trim;
 use crate::vehicle::Data;
+use left::left;
 use ready::Ready;
 use std::sync::Arc;
 use steered::{Steered, in_effect};
@@ -54,15 +56,6 @@ pub struct Flight {
     slope: Option<State>,
     /// What is shown, if known.
     sample: Option<Sample>,
-}
-
-fn left(vehicle: &Vehicle, state: &State, (control, gust): (Control, Gust), time_s: f64) -> Error {
-    let tightest = vehicle.tightest(state, &control, gust);
-    if vehicle.burn.is_some() && state[FUEL] <= tightest.margin() * vehicle.fuel {
-        return Error::Fuel { time_s };
-    }
-    let [min, max] = tightest.limits;
-    Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
 
 impl Flight {
@@ -157,7 +150,7 @@ impl Flight {
         if ready.vehicle.holds(&self.state, &control, gust) {
             return Ok(());
         }
-        Err(left(&ready.vehicle, &self.state, (control, gust), self.time))
+        Err(left(ready, &self.state, &self.inputs, self.time))
     }
 
     /// Whether the equations have numbers here.
@@ -257,8 +250,7 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                let air = in_effect(&ready.vehicle, &ready.base, &inputs.values);
-                Err(left(&ready.vehicle, state, air, self.time))
+                Err(left(ready, state, inputs, self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

@@ -109,11 +109,16 @@ impl Vehicle {
             && self.choking(x, u, gust).is_none_or(|limited| limited.margin() >= 0.0)
     }
 
-    /// The quantity that is outside its limits or, inside all, next to them.
-    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
+    /// All quantities that have limits.
+    pub fn limited(&self, x: &State, u: &Control, gust: Gust) -> impl Iterator<Item = Limited> {
         let met = Self::as_met(x, gust);
         let sloshing = (self.modes > crate::modes::FLEXIBLE).then(|| self.sloshing(x));
         let others = sloshing.into_iter().flatten().chain(self.choking(x, u, gust));
-        tightest(self.aero.envelope.tightest(&self.atmosphere, &met), others)
+        self.aero.envelope.limited(&self.atmosphere, &met).into_iter().chain(others)
+    }
+
+    /// The quantity that is outside its limits or, inside all, next to them.
+    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
+        tightest(self.limited(x, u, gust))
     }
 }

@@ -45,7 +45,7 @@ impl Ready {
         let mut start = steady.state;
         disturb(&vehicle, &mut start, &offsets);
         if !vehicle.holds(&start, &steady.control, [0.0; GUSTS]) {
-            return Err(start_outside(&vehicle, &start, &steady.control, parameters));
+            return Err(start_outside(&vehicle, &start, &steady, parameters));
         }
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
         let base = if deviation { steady.control } else { [0.0; 2] };
@@ -128,43 +128,51 @@ fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
 fn start_outside(
     vehicle: &Vehicle,
     start: &State,
-    control: &Control,
+    steady: &Trim,
     parameters: &Parameters,
 ) -> Error {
+    let still = [0.0; GUSTS];
     let Limited { variable, value, limits: [min, max] } =
-        vehicle.tightest(start, control, [0.0; GUSTS]);
-    let offsets = &parameters.offsets;
+        vehicle.tightest(start, &steady.control, still);
+    let (offsets, build) = (&parameters.offsets, &parameters.build);
     // The flexible mode that moves the liquid of a tank most.
     let bent = |tank: usize| {
         let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
         (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
     };
-    let eta0 = match variable {
-        "slosh1" if !parameters.trim => bent(0),
-        "slosh2" if !parameters.trim => bent(1),
-        _ => None,
+    let sloshing = |tank: usize| {
+        let (name, offset) = [("slosh1_offset", 0), ("slosh2_offset", 1)]
+            .map(|(name, tank)| (name, offsets.displacement[FLEXIBLE + tank]))[tank];
+        match bent(tank).filter(|_| !parameters.trim) {
+            _ if offset != 0.0 => (name, offset),
+            Some(i) => (["eta10", "eta20", "eta30"][i], parameters.eta0[i]),
+            None if build.slosh_frequency > 0.0 => ("slosh_frequency", build.slosh_frequency),
+            None => ("fuel_fraction", build.fuel_fraction),
+        }
     };
-    let name = match variable {
-        "h" => "altitude0",
-        "mach" => "mach0",
-        "alpha" if parameters.trim || offsets.alpha != 0.0 => "alpha_offset",
-        "alpha" => "alpha0",
-        "slosh1" if offsets.displacement[FLEXIBLE] != 0.0 => "slosh1_offset",
-        "slosh2" if offsets.displacement[FLEXIBLE + 1] != 0.0 => "slosh2_offset",
-        "slosh1" | "slosh2" => eta0.map_or("fuel_fraction", |i| ["eta10", "eta20", "eta30"][i]),
-        _ => "mach0",
+    let (name, given) = match variable {
+        "h" => ("altitude0", value),
+        "mach" => ("mach0", build.condition.mach),
+        "alpha" if parameters.trim || offsets.alpha != 0.0 => ("alpha_offset", offsets.alpha),
+        "alpha" => ("alpha0", value),
+        "slosh1" => sloshing(0),
+        "slosh2" => sloshing(1),
+        // The burner chokes: for the incidence, or for the fuel that the trim takes.
+        _ if offsets.alpha != 0.0 && vehicle.holds(&steady.state, &steady.control, still) => {
+            ("alpha_offset", offsets.alpha)
+        }
+        _ if parameters.trim => ("phi_trim", steady.control[1]),
+        _ => ("alpha0", parameters.alpha0),
     };
-    let given = match name {
-        "alpha_offset" => offsets.alpha,
-        "slosh1_offset" => offsets.displacement[FLEXIBLE],
-        "slosh2_offset" => offsets.displacement[FLEXIBLE + 1],
-        "fuel_fraction" => parameters.build.fuel_fraction,
-        "mach0" => parameters.build.condition.mach,
-        "eta10" | "eta20" | "eta30" => eta0.map_or(0.0, |i| parameters.eta0[i]),
-        _ => value,
+    let remedy = match name {
+        "phi_trim" => "; the burner chokes: choose another mach0, altitude0 or thrust_factor",
+        _ => "",
     };
-    let expected = format!(
-        "it makes {variable} {value:.6} at the start; the model holds in [{min:.6}, {max:.6}]"
-    );
+    let limit = match max {
+        f64::INFINITY => format!("from {min:.6} up"),
+        _ => format!("in [{min:.6}, {max:.6}]"),
+    };
+    let expected =
+        format!("it makes {variable} {value:.6} at the start; the model holds {limit}{remedy}");
     Error::Value { variable: name.into(), value: given, expected }
 }

@@ -24,10 +24,12 @@ pub enum Failure {
     #[error("call fmi2SetupExperiment first, it gives the start time")]
     NoExperiment,
     /// A pointer that has to lead somewhere is NULL, or misaligned, or its length is absurd.
-    #[error("argument {argument} is NULL or does not point to an array of the length given")]
+    #[error("argument {argument} is NULL or does not point to {place}")]
     BadPointer {
         /// Name of the argument in the standard.
         argument: &'static str,
+        /// What it should point to.
+        place: &'static str,
     },
     /// An argument has a value that makes no sense.
     #[error("{argument} = {value} is refused: {expected}")]
@@ -71,11 +73,11 @@ pub enum Failure {
         value: f64,
     },
     /// A derivative with respect to, or of, what is not served.
-    #[error("{variable} is not served {served}")]
+    #[error("{variable} {served}")]
     NoDerivative {
         /// Name of the variable.
         variable: &'static str,
-        /// What is served in its place.
+        /// What it cannot be, and what can.
         served: &'static str,
     },
     /// A derivative of an order that is not served.
@@ -118,7 +120,7 @@ pub enum Failure {
     /// The communication point is not where the last step ended.
     #[error(
         "currentCommunicationPoint = {asked} s and communicationStepSize = {step} s do not \
-         continue from the instance's time {time} s"
+         continue from the instance's time {time} s; a step begins where the last one ended"
     )]
     CommunicationPoint {
         /// Communication point given.
@@ -145,8 +147,8 @@ pub enum Failure {
     /// The model refuses.
     #[error(transparent)]
     Model(#[from] Error),
-    /// Status information that synchronous steps do not have.
-    #[error("status kind {} is not available as {asked}: no step is ever pending", kind.0)]
+    /// Status information that synchronous steps do not have, or not of this type.
+    #[error("status kind {} is not available as {asked}: {}", kind.0, elsewhere(*kind))]
     NoStatus {
         /// What was asked for.
         kind: StatusKind,
@@ -196,6 +198,16 @@ impl Failure {
             Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
             _ => Status::Error,
         }
+    }
+}
+
+/// Why a kind of status is not available, and where else it is.
+fn elsewhere(kind: StatusKind) -> &'static str {
+    match kind {
+        StatusKind::LAST_SUCCESSFUL_TIME => "call fmi2GetRealStatus",
+        StatusKind::TERMINATED => "call fmi2GetBooleanStatus",
+        StatusKind::DO_STEP_STATUS | StatusKind::PENDING_STATUS => "no step is ever pending",
+        _ => "there are 0 to 3",
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`instance`] | one instance: set-up, steps, status |
 //! | [`exchange`] | model exchange: the master integrates |
 //! | [`values`] | reading and setting variables |
+//! | [`derivatives`] | directional derivatives, those of inputs and outputs by time |
 //! | [`snapshot`] | the FMU state and its bytes |
 //! | [`guard`] | legal order, panics and failures become a status and a message |
 //! | `abi` | the exported functions: the only unsafe code of the crate |
@@ -22,6 +23,7 @@
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
 
 mod abi;
+pub mod derivatives;
 pub mod exchange;
 pub mod failure;
 pub mod guard;

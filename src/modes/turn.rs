@@ -85,8 +85,8 @@ impl Modes {
         let mut rotation = nearest_rotation(overlap).ok_or_else(|| Error::Value {
             variable: "fuel_burn".into(),
             value: 1.0,
-            expected: "modes that can be followed until the tanks are empty; \
-                       choose another slosh_frequency"
+            expected: "the modes cannot be followed until the tanks are empty; \
+                       choose another slosh_frequency, or false"
                 .into(),
         })?;
 
