@@ -14,6 +14,8 @@ use crate::{package, plot};
 use anyhow::{Context, Result, bail};
 use std::time::{Duration, Instant};
 
+/// Communication step, s, where nobody asks for another: rows that show the third mode.
+pub const STEP: f64 = 0.01;
 /// Steps of which a record is kept; each takes about 200 bytes of memory and of the CSV file.
 const MAX_STEPS: f64 = 1e6;
 /// Communication points closer than this share of a step are one.
@@ -37,7 +39,7 @@ pub fn run(options: &Fly) -> Result<()> {
     let fmu = Fmu::open(&file)?;
     let model = &fmu.model;
     let default = &model.experiment;
-    let step = positive("--step", options.step.or(default.step_size))?;
+    let step = positive("--step", options.step.or(Some(STEP)))?;
     let stop = positive("--stop", options.stop.or(default.stop_time))?;
     let tolerance = positive("--tolerance", options.tolerance.or(default.tolerance))?;
     let settings = settings::parse(model, &options.set.settings)?;

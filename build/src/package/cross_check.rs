@@ -2,7 +2,7 @@
 
 use super::Files;
 use crate::describe::MODEL_IDENTIFIER;
-use crate::fly::{apply, communication_points, positive};
+use crate::fly::{STEP, apply, communication_points, positive};
 use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::{Instance, Step};
@@ -22,7 +22,6 @@ pub fn path(ending: &str) -> String {
 /// interpolates flies the same as one that holds a value.
 pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let (model, default) = (&fmu.model, &fmu.model.experiment);
-    let step = positive("step size", default.step_size)?;
     let stop = positive("stop time", default.stop_time)?;
     let tolerance = positive("tolerance", default.tolerance)?;
     let input = root().join("examples/elevator_doublet.csv");
@@ -44,7 +43,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     };
     let mut time = 0.0;
     add(&mut instance, time)?;
-    for next in communication_points(step, stop, std::iter::empty()) {
+    for next in communication_points(STEP, stop, std::iter::empty()) {
         // A row has the outputs at the end of a step, before the inputs of the next.
         apply(&mut instance, &manoeuvre, time)?;
         if let Step::Discarded(reached, reason) = instance.step(time, next - time)? {
@@ -56,7 +55,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     instance.terminate()?;
 
     let options =
-        format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{step:?}\nRelTol,{tolerance:?}\n");
+        format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{STEP:?}\nRelTol,{tolerance:?}\n");
     Ok(Files::from([
         (path("in.csv"), read(&input)?),
         (path("ref.csv"), record.csv()?.into_bytes()),
