@@ -21,7 +21,9 @@ fn refused(slave: &Slave, status: Status, expected: Status, words: &[&str]) {
 }
 
 /// Settings, and words of the reason for which there is no start from them.
-type Start = (&'static [(&'static str, f64)], &'static [&'static str]);
+type Start = (Settings, Words);
+type Settings = &'static [(&'static str, f64)];
+type Words = &'static [&'static str];
 
 const STARTS: [Start; 17] = [
     (&[("mach0", 2.0)], &["mach0 = 2 is beyond [6, 11]", "choose another flight condition"]),
@@ -73,7 +75,7 @@ fn choose(slave: &Slave, name: &str, value: f64) {
 #[test]
 fn a_flight_that_ends_early_blames_what_ends_it() {
     let api = Api::load();
-    let ends: [(&[(&str, f64)], f64, &[&str]); 7] = [
+    let ends: [(Settings, f64, Words); 7] = [
         (&[], 0.2, &["alpha = ", "edge of its valid range [", "curve fits mean nothing"]),
         (&[("mach0", 6.0), ("configuration", 1.0)], 0.0, &["mach = 6.0", "[6.000000, 11.000000]"]),
         (&[("fuel_fraction", 0.0)], 0.02, &["slosh", "the liquid would leave its depth"]),

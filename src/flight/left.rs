@@ -16,7 +16,8 @@ const LOOKS: u32 = 30;
 pub(super) fn left(ready: &Ready, x: &State, inputs: &Inputs, time_s: f64) -> Error {
     let vehicle = &ready.vehicle;
     let (control, gust) = in_effect(vehicle, &ready.base, &inputs.values);
-    let rates = vehicle.derivatives(x, &control, gust);
+    // Not `derivatives`: a second call of it would keep it from being inlined in the steps.
+    let (rates, _) = vehicle.both(x, &control, gust);
     let looks = (0..LOOKS).map(|doublings| LOOK * f64::from(1 << doublings));
     let beyond = std::iter::once(0.0).chain(looks).find_map(|later| {
         let x: State = std::array::from_fn(|i| x[i] + later * rates[i]);
