@@ -1,7 +1,7 @@
 //! An FMU as a file: unzipped, with its description read.
 
 use crate::model_description::ModelDescription;
-use crate::package::HOST;
+use crate::package::host;
 use crate::workspace::{BINARY, read, read_text, shown, write};
 use anyhow::{Context, Result, bail};
 use std::io::{Cursor, Read};
@@ -47,7 +47,8 @@ impl Fmu {
         if !is_c_name(identifier) {
             bail!("{name}: the modelIdentifier {identifier:?} is not the name of a C function");
         }
-        let binary = format!("binaries/{}/{identifier}.{}", HOST.name, HOST.ending);
+        let host = host()?;
+        let binary = format!("binaries/{}/{identifier}.{}", host.name, host.ending);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is not in it");

@@ -31,7 +31,7 @@ const STEPS: [Step; 15] = [
     ("description", |_| describe::run(&Describe { check: true, file: None })),
     ("package", |options| {
         let targets = if options.all_targets { Targets::All } else { Targets::Possible };
-        package::build(&package::default_output(), targets)
+        package::build(&package::default_output(Targets::Possible), targets)
     }),
     ("C ABI fuzz", |_| abuse::fuzz()),
     ("sanitizer", |_| abuse::sanitizer()),
@@ -127,7 +127,7 @@ fn python_tests(folder: &str) -> Result<()> {
             .args(["-m", "pytest", "-p", "no:cacheprovider"])
             .arg(root().join(folder))
             .current_dir(root())
-            .env("AHV_FMU", package::default_output()),
+            .env("AHV_FMU", package::default_output(Targets::Possible)),
     )
 }
 
