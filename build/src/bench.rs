@@ -46,7 +46,7 @@ pub fn run(options: &Bench) -> Result<()> {
         if !options.only.is_empty() && !options.only.contains(&part) {
             continue;
         }
-        eprintln!("{name} ...");
+        note!("{name} ...");
         let lines = measure(&effort, &mut report);
         // What is missing on this machine costs its own part only.
         if let Err(error) = lines {

@@ -66,27 +66,26 @@ pub fn run(options: &Fly) -> Result<()> {
         instance.terminate()?;
     }
 
-    println!("FMU          {}", shown(&file));
-    println!("inputs       {}", shown(&input));
-    println!("experiment   {stop} s in steps of {step} s, tolerance {tolerance:e}");
-    println!("set          {}", set_summary(&settings));
-    println!("\nCalculated at initialisation");
-    print!("{}", table(&calculated));
-    println!("\nLargest deviations from the start");
-    print!("{}", deviations(model, &flown.record));
-    print_messages(&instance);
-
     let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     let csv = directory.join("flight.csv");
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
     files.extend(plot::figures(&flown.record, &directory)?);
     write_together(&files)?;
-    println!();
+    say!("FMU          {}", shown(&file))?;
+    say!("inputs       {}", shown(&input))?;
+    say!("experiment   {stop} s in steps of {step} s, tolerance {tolerance:e}")?;
+    say!("set          {}", set_summary(&settings))?;
+    say!("\nCalculated at initialisation")?;
+    put!("{}", table(&calculated))?;
+    say!("\nLargest deviations from the start")?;
+    put!("{}", deviations(model, &flown.record))?;
+    print_messages(&instance)?;
+    say!("")?;
     for file in files.keys() {
-        println!("wrote        {}", shown(file));
+        say!("wrote        {}", shown(file))?;
     }
     let end = flown.record.rows.last().map_or(0.0, |row| row[0]);
-    println!("speed        {:.0} times real time", end / flown.spent.as_secs_f64());
+    say!("speed        {:.0} times real time", end / flown.spent.as_secs_f64())?;
     match flown.discarded {
         None => Ok(()),
         Some(reason) => bail!("the flight ended at {} s of {stop} s: {reason}", number(end)),
@@ -208,14 +207,15 @@ fn deviations(model: &ModelDescription, record: &Record) -> String {
     table(&rows)
 }
 
-fn print_messages(instance: &Instance) {
+fn print_messages(instance: &Instance) -> Result<()> {
     let messages = instance.messages();
     if !messages.is_empty() {
-        println!("\nMessages of the FMU");
+        say!("\nMessages of the FMU")?;
     }
     for message in messages {
-        println!("  {} ({}): {}", status_name(message.status), message.category, message.text);
+        say!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
 use crate::workspace::{BINARY, read, shown, target, write};
-use crate::{documentation, licenses};
+use crate::{documentation, licenses, say};
 use anyhow::{Context, Result, bail};
 use binary::Binary;
 pub use platform::host;
@@ -91,10 +91,10 @@ fn package(libraries: Libraries, output: &Path) -> Result<()> {
     for Library { platform, binary, .. } in &libraries.found {
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
-        println!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "));
+        say!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "))?;
     }
     for text in libraries.missing {
-        println!("  {text}");
+        say!("  {text}")?;
     }
     Ok(())
 }
@@ -159,8 +159,10 @@ impl Libraries {
                 let glibc = libraries.add((LINUX, library))?.glibc.unwrap_or_default();
                 libraries.missing.push(format!(
                     "linux64 is for machines like this one: it needs glibc {}.{}. For glibc 2.17 \
-                     the linker of zig is needed: {error:#}",
-                    glibc.0, glibc.1
+                     the linker of zig is needed: {}",
+                    glibc.0,
+                    glibc.1,
+                    say::causes(&error)
                 ));
             }
         }
@@ -169,7 +171,7 @@ impl Libraries {
                 let library = library::for_windows(toolchain)?;
                 libraries.add((WINDOWS, library))?.check_everywhere(WINDOWS)?;
             }
-            Err(error) => libraries.missing.push(format!("{error:#}")),
+            Err(error) => libraries.missing.push(say::causes(&error)),
         }
         Ok(libraries)
     }
@@ -213,8 +215,8 @@ fn write_fmu(files: Files, output: &Path) -> Result<()> {
     write(output, &bytes)?;
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
-    println!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "));
+    say!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
     let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    println!("  sha256 {digest}");
+    say!("  sha256 {digest}")?;
     Ok(())
 }

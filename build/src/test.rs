@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
-use crate::{abuse, bench, describe, package};
+use crate::{abuse, bench, describe, package, say};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
@@ -54,18 +54,18 @@ const WINDOWS: Step = ("Windows", |_| {
 pub fn run(options: &Test) -> Result<()> {
     let mut results = Vec::new();
     for (number, (name, step)) in STEPS.into_iter().enumerate() {
-        println!("\n[{}/{}] {name}", number + 1, STEPS.len());
+        note!("\n[{}/{}] {name}", number + 1, STEPS.len());
         let started = Instant::now();
         if name == WINDOWS.0
             && !options.all_targets
             && let Some(missing) = missing_for_windows()
         {
-            println!("not run: {missing}");
+            note!("not run: {missing}");
             break;
         }
         let result = step(options);
         if let Err(error) = &result {
-            eprintln!("error: {error:#}");
+            note!("error: {}", say::causes(error));
         }
         let passed = result.is_ok();
         results.push((name, passed, started.elapsed().as_secs_f64()));
@@ -73,13 +73,13 @@ pub fn run(options: &Test) -> Result<()> {
             break;
         }
     }
-    println!("\nSummary");
+    note!("\nSummary");
     for (name, passed, seconds) in &results {
         let result = if *passed { "passed" } else { "FAILED" };
-        println!("  {name:<14} {result} {seconds:8.1} s");
+        note!("  {name:<14} {result} {seconds:8.1} s");
     }
     for (name, _) in STEPS.iter().skip(results.len()) {
-        println!("  {name:<14} not run");
+        note!("  {name:<14} not run");
     }
     let failed: Vec<_> =
         results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| *name).collect();
@@ -134,7 +134,7 @@ fn python_tests(folder: &str) -> Result<()> {
 /// What the tests of the Windows library need and this machine does not have.
 fn missing_for_windows() -> Option<String> {
     if let Err(error) = package::can_build_for_windows() {
-        return Some(format!("{error:#}"));
+        return Some(say::causes(&error));
     }
     (!works("wine", &["--version"]))
         .then(|| "wine runs the library; on Debian: apt-get install wine wine64".to_string())

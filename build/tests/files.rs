@@ -47,7 +47,7 @@ fn rubbish_replaces_no_fmu() {
     for (platform, file, told) in [
         ("linux64", &text, "README.md: this is no shared library"),
         ("linux64", &half, "half.so: "),
-        ("linux64", &tool, "ahv"),
+        ("linux64", &tool, "linux64 needs the functions of FMI 2.0: this library has none"),
         ("win64", &library(), "win64 needs Pe for X86_64, this is Elf for X86_64"),
         ("aarch64-linux", &library(), "aarch64-linux needs Elf for Aarch64"),
         ("linux64", &directory.path().into(), "is a directory; a file is expected"),
@@ -91,4 +91,25 @@ fn input_without_end_is_refused_at_once() {
     fs::File::create(&large).unwrap().set_len(1 << 40).unwrap();
     let trim = ahv(&["trim", "--vehicle", large.to_str().unwrap()]);
     assert!(!trim.ok && trim.err.contains("large.toml is too large"), "{}", trim.err);
+}
+
+#[test]
+#[cfg(unix)]
+fn output_that_cannot_be_written_is_an_error_and_a_closed_pipe_is_none() {
+    let tool = env!("CARGO_BIN_EXE_ahv");
+    for arguments in
+        [["trim"].as_slice(), &["modes", "--json"], &["poles"], &["--help"], &["fit", "--help"]]
+    {
+        let full = fs::File::options().write(true).open("/dev/full").unwrap();
+        let done = Command::new(tool).args(arguments).stdout(full).output().unwrap();
+        let told = String::from_utf8(done.stderr).unwrap();
+        assert_eq!(done.status.code(), Some(1), "{arguments:?}: {told}");
+        assert!(told.starts_with("error: cannot write to standard output: No space"), "{told}");
+        assert_eq!(told.lines().count(), 1, "{told}");
+
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let done = Command::new(tool).args(arguments).stdout(writer).output().unwrap();
+        assert_eq!((done.status.code(), done.stderr.as_slice()), (Some(0), b"".as_slice()));
+    }
 }

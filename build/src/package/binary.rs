@@ -123,9 +123,16 @@ impl Binary {
         }
         let standard: BTreeSet<_> =
             signatures().into_iter().map(|(name, _)| name.to_string()).collect();
-        let differ: Vec<_> = self.exports.symmetric_difference(&standard).cloned().collect();
-        if !differ.is_empty() {
-            bail!("{} exports too much or too little: {}", platform.name, differ.join(", "));
+        let lacking: Vec<_> = standard.difference(&self.exports).cloned().collect();
+        if lacking.len() == standard.len() {
+            bail!("{} needs the functions of FMI 2.0: this library has none", platform.name);
+        }
+        if !lacking.is_empty() {
+            bail!("{} lacks functions of FMI 2.0: {}", platform.name, lacking.join(", "));
+        }
+        let more: Vec<_> = self.exports.difference(&standard).cloned().collect();
+        if !more.is_empty() {
+            bail!("{} exports more than FMI 2.0 has: {}", platform.name, more.join(", "));
         }
         Ok(())
     }

@@ -86,8 +86,8 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
     }
     write_together(&files)?;
     for file in files.keys() {
-        println!("{}", shown(file));
+        say!("{}", shown(file))?;
     }
-    println!("done in {:.1} s", started.elapsed().as_secs_f64());
+    say!("done in {:.1} s", started.elapsed().as_secs_f64())?;
     Ok(())
 }
