@@ -9,8 +9,9 @@ use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
-use crate::workspace::{Files, root, shown, target, write_together};
+use crate::workspace::{Files, can_write, root, shown, target, write_together};
 use crate::{package, plot};
+use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::time::{Duration, Instant};
 
@@ -35,6 +36,8 @@ pub fn run(options: &Fly) -> Result<()> {
         None => package::fresh(Targets::Possible)?,
     };
     let fmu = Fmu::open(&file)?;
+    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
+    can_write(&directory.join("flight.csv"))?;
     let model = &fmu.model;
     let default = &model.experiment;
     let step = positive("--step", options.step.or(default.step_size))?;
@@ -57,8 +60,10 @@ pub fn run(options: &Fly) -> Result<()> {
     let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
     if stop / step > MAX_STEPS {
         bail!(
-            "--step {step} s makes {:.0e} steps in {stop} s; the record holds {MAX_STEPS:.0e}",
-            stop / step
+            "--step {} s makes {:.0e} steps in {} s; the record holds {MAX_STEPS:.0e}",
+            short(step),
+            stop / step,
+            short(stop)
         );
     }
     let flown = fly(&mut instance, model, &manoeuvre, step, stop)?;
@@ -66,14 +71,14 @@ pub fn run(options: &Fly) -> Result<()> {
         instance.terminate()?;
     }
 
-    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     let csv = directory.join("flight.csv");
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
     files.extend(plot::figures(&flown.record, &directory)?);
     write_together(&files)?;
     say!("FMU          {}", shown(&file))?;
     say!("inputs       {}", shown(&input))?;
-    say!("experiment   {stop} s in steps of {step} s, tolerance {tolerance:e}")?;
+    let [duration, steps] = [stop, step].map(short);
+    say!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
     say!("set          {}", set_summary(&settings))?;
     say!("\nCalculated at initialisation")?;
     put!("{}", table(&calculated))?;
@@ -95,7 +100,7 @@ pub fn run(options: &Fly) -> Result<()> {
 pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     match value {
         Some(value) if value.is_finite() && value > 0.0 => Ok(value),
-        Some(value) => bail!("{option} {value}: a finite number above zero is expected"),
+        Some(value) => bail!("{option} {}: a finite number above zero is expected", short(value)),
         None => bail!("{option} is needed: the FMU has no default"),
     }
 }

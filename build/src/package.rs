@@ -13,10 +13,10 @@ mod windows;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{BINARY, read, shown, target, write};
+use crate::workspace::{BINARY, can_write, read, shown, target, write};
 use crate::{documentation, licenses, say};
 use anyhow::{Context, Result, bail};
-use binary::Binary;
+pub use binary::Binary;
 pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
@@ -57,6 +57,7 @@ pub fn run(options: &Package) -> Result<()> {
         _ => Targets::Possible,
     };
     let output = options.output.clone().unwrap_or_else(|| default_output(targets));
+    can_write(&output)?;
     if options.library.is_empty() {
         return build(&output, targets);
     }

@@ -4,6 +4,7 @@
 mod tool;
 
 use std::fs;
+use std::io::{Cursor, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
@@ -112,4 +113,85 @@ fn output_that_cannot_be_written_is_an_error_and_a_closed_pipe_is_none() {
         let done = Command::new(tool).args(arguments).stdout(writer).output().unwrap();
         assert_eq!((done.status.code(), done.stderr.as_slice()), (Some(0), b"".as_slice()));
     }
+}
+
+/// The FMU with one file in it changed; its new name and content.
+fn with(fmu: &[u8], name: &str, change: impl Fn(&str, Vec<u8>) -> (String, Vec<u8>)) -> Vec<u8> {
+    let mut old = zip::ZipArchive::new(Cursor::new(fmu)).unwrap();
+    let mut new = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for index in 0..old.len() {
+        let mut file = old.by_index(index).unwrap();
+        let mut content = Vec::new();
+        file.read_to_end(&mut content).unwrap();
+        let own = file.name().unwrap().into_owned();
+        let (own, content) = if own == name { change(&own, content) } else { (own, content) };
+        new.start_file(own, zip::write::SimpleFileOptions::default()).unwrap();
+        new.write_all(&content).unwrap();
+    }
+    new.finish().unwrap().into_inner()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_foreign_fmu_is_looked_into_before_it_is_loaded() {
+    let (directory, option, fmu) = scratch();
+    let good = package(&option, &fmu);
+    let (xml, library) = ("modelDescription.xml", "binaries/linux64/ahv.so");
+    let edit = |from: &str, to: &str| {
+        with(&good, xml, |name, text| {
+            let text = String::from_utf8(text).unwrap();
+            assert!(text.contains(from), "{from}");
+            (name.into(), text.replace(from, to).into_bytes())
+        })
+    };
+    for (content, told) in [
+        (
+            with(&good, library, |name, whole| (name.into(), whole[..10_000].into())),
+            "ahv.so: this is no",
+        ),
+        (with(&good, library, |name, _| (name.into(), b"text".into())), "ahv.so: this is no"),
+        (
+            with(&good, library, |_, whole| ("../../ahv.so".into(), whole)),
+            "may lead out of the folder",
+        ),
+        (with(&good, xml, |name, _| (name.into(), vec![b'x'; 100_000])), "cannot be read"),
+        (with(&good, xml, |name, _| (name.into(), vec![0xff])), "is not a text in UTF-8"),
+        (
+            edit("modelIdentifier=\"ahv\"", "modelIdentifier=\"../ahv\""),
+            "\"../ahv\" is not the name",
+        ),
+        (
+            edit("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""),
+            "is for FMI 3.0; one for FMI 2.0 is needed",
+        ),
+        (edit("CoSimulation", "Other"), "is not for co-simulation"),
+    ] {
+        let file = directory.path().join("foreign.fmu");
+        fs::write(&file, content).unwrap();
+        let output = directory.path().join("flight");
+        let fly =
+            ahv(&["fly", "--fmu", file.to_str().unwrap(), "--output", output.to_str().unwrap()]);
+        assert!(!fly.ok && fly.err.contains(told), "{told}: {}", fly.err);
+        assert!(fly.err.len() < 1000, "{}", fly.err.len());
+    }
+}
+
+#[test]
+fn numbers_in_messages_are_short() {
+    let (directory, option, fmu) = scratch();
+    package(&option, &fmu);
+    let (fmu, output) = (fmu.to_str().unwrap(), directory.path().to_str().unwrap());
+    for arguments in [
+        ["fly", "--fmu", fmu, "--output", output, "--stop", "1e150"].as_slice(),
+        &["fly", "--fmu", fmu, "--output", output, "--step", "1e-300"],
+        &["fly", "--fmu", fmu, "--output", output, "--step", "-1e150"],
+        &["trim", "--set", "mach0=1e150"],
+        &["trim", "--set", "altitude0=1e-300"],
+    ] {
+        let done = ahv(arguments);
+        assert!(!done.ok && !done.err.contains("00000000"), "{arguments:?}: {}", done.err);
+    }
+    // A step beyond the end is one step to it.
+    let done = ahv(&["fly", "--fmu", fmu, "--output", output, "--step", "1e150", "--stop", "0.01"]);
+    assert!(done.ok && done.out.contains("0.01 s in steps of 1e150 s"), "{}{}", done.out, done.err);
 }

@@ -4,7 +4,7 @@ use super::chart;
 use super::precision::Point;
 use super::spread::Spread;
 use crate::table::{number, row, table};
-use crate::workspace::{DATA, Files, read_text, root, shown, target, write_together};
+use crate::workspace::{DATA, Files, read_text, root, shown, write_together};
 use anyhow::Result;
 use serde::Serialize;
 use std::ffi::OsStr;
@@ -108,12 +108,11 @@ impl Report {
     }
 
     /// Prints the table; writes bench.json and, with points, precision.svg and .png.
-    pub fn finish(&self, directory: Option<&Path>) -> Result<()> {
-        let directory = directory.map_or_else(|| target().join("bench"), Path::to_path_buf);
+    pub fn finish(&self, directory: &Path) -> Result<()> {
         let json = serde_json::to_vec_pretty(self)?;
         let mut files = Files::from([(directory.join("bench.json"), json)]);
         if !self.points.is_empty() {
-            files.extend(chart::files(&self.points, &directory)?);
+            files.extend(chart::files(&self.points, directory)?);
         }
         write_together(&files)?;
         say!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;

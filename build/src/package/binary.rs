@@ -93,17 +93,12 @@ impl Binary {
         Ok(Self { format, architecture, glibc: None, needed, exports })
     }
 
-    /// Refuses what is not a library for the platform with the functions of FMI, or needs what is not
-    /// part of a system.
-    pub fn check(&self, platform: Platform) -> Result<()> {
-        let (format, known): (_, fn(&str) -> bool) = match platform.os {
-            "linux" => {
-                (BinaryFormat::Elf, |name| LINUX_LIBRARIES.contains(&name) || name == UNWINDER)
-            }
-            "windows" => (BinaryFormat::Pe, |name| WINDOWS_LIBRARIES.contains(&name)),
-            _ => (BinaryFormat::MachO, |name| {
-                MACOS_FOLDERS.iter().any(|folder| name.starts_with(folder))
-            }),
+    /// Refuses a library for other systems or processors.
+    pub fn is_for(&self, platform: Platform) -> Result<()> {
+        let format = match platform.os {
+            "linux" => BinaryFormat::Elf,
+            "windows" => BinaryFormat::Pe,
+            _ => BinaryFormat::MachO,
         };
         let architecture = match platform.arch {
             "x86_64" => Architecture::X86_64,
@@ -117,6 +112,18 @@ impl Binary {
                 self.architecture
             );
         }
+        Ok(())
+    }
+
+    /// Refuses what is not a library for the platform with the functions of FMI, or needs what is not
+    /// part of a system.
+    pub fn check(&self, platform: Platform) -> Result<()> {
+        self.is_for(platform)?;
+        let known: fn(&str) -> bool = match platform.os {
+            "linux" => |name| LINUX_LIBRARIES.contains(&name) || name == UNWINDER,
+            "windows" => |name| WINDOWS_LIBRARIES.contains(&name),
+            _ => |name| MACOS_FOLDERS.iter().any(|folder| name.starts_with(folder)),
+        };
         let foreign: Vec<_> = self.needed.iter().filter(|name| !known(name)).cloned().collect();
         if !foreign.is_empty() {
             bail!("{} needs {}: not part of the system", platform.name, foreign.join(", "));

@@ -25,7 +25,7 @@ mod verdict;
 mod work;
 
 use crate::cli;
-use crate::workspace::{shown, target, write_together};
+use crate::workspace::{can_write, shown, target, write_together};
 use anyhow::Result;
 use clap::ValueEnum;
 
@@ -70,6 +70,7 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
         only => only,
     };
     let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
+    can_write(&directory.join("report.html"))?;
     let work = work::Work::new(parts, directory.join("figures"))?;
     let report = work.report(&sets)?;
     let mut files = work.drawn.into_inner();
