@@ -195,3 +195,23 @@ fn numbers_in_messages_are_short() {
     let done = ahv(&["fly", "--fmu", fmu, "--output", output, "--step", "1e150", "--stop", "0.01"]);
     assert!(done.ok && done.out.contains("0.01 s in steps of 1e150 s"), "{}{}", done.out, done.err);
 }
+
+#[test]
+fn a_moved_tool_works_on_the_tree_that_it_lies_in() {
+    let scratch = TempDir::new().unwrap();
+    let copy = scratch.path().canonicalize().unwrap();
+    let built = Path::new(env!("CARGO_BIN_EXE_ahv"));
+    let tool = copy.join("target/release").join(built.file_name().unwrap());
+    fs::create_dir_all(tool.parent().unwrap()).unwrap();
+    fs::copy(built, &tool).unwrap();
+    let describe = |told: &str| {
+        let mut command = Command::new(&tool);
+        command.arg("describe").current_dir("/").env_remove("CARGO_MANIFEST_DIR");
+        let done: Outcome = command.output().unwrap().into();
+        assert!(format!("{}{}", done.out, done.err).contains(told), "{}{}", done.out, done.err);
+    };
+    describe("no sources of ahv at or above");
+    fs::write(copy.join("Cargo.toml"), "[package]\nname = \"ahv-fmu\"\n").unwrap();
+    describe("modelDescription.xml");
+    assert!(copy.join("modelDescription/modelDescription.xml").exists());
+}
