@@ -154,8 +154,9 @@ fn tidy_errata_count_on_and_name_tests_that_exist() {
 #[test]
 fn tidy_every_pain_in_the_table_has_tests_that_exist() {
     let code = tested();
-    let table = read("tests/README.md");
-    let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    let page = read("tests/README.md");
+    let (_, table) = page.split_once("| pain |").expect("the table of pains");
+    let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).collect();
     assert!(rows.len() > 10, "the table of pains");
     for row in rows {
         let tests = quoted(row);
