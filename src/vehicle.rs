@@ -128,11 +128,15 @@ pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), 
 /// Beam, sloshing masses and modes of a vehicle at one fuel level.
 #[derive(Debug, Clone)]
 pub struct Body {
-    beam: Beam,
-    oscillators: Vec<Oscillator>,
-    modes: Modes,
+    /// Beam.
+    pub beam: Beam,
+    /// Sloshing masses.
+    pub oscillators: Vec<Oscillator>,
+    /// Modes of both together.
+    pub modes: Modes,
+    /// Mass, mass centre and pitch inertia of both together.
+    pub properties: MassProperties,
     strips: Strips,
-    properties: MassProperties,
 }
 
 impl Body {
@@ -221,11 +225,18 @@ impl Vehicle {
     /// # Errors
     /// Those of [`Vehicle::new`].
     pub fn chosen(chosen: &Chosen) -> Result<Self, Error> {
+        Self::with_body(chosen, &Body::new(chosen)?)
+    }
+
+    /// The same around a body that is known: that of [`Body::new`].
+    ///
+    /// # Errors
+    /// Those of [`Vehicle::new`].
+    pub fn with_body(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
         let build = &chosen.build;
         build.stations.check(chosen.vehicle.geometry.length_m.value)?;
-        let body = Body::new(chosen)?;
-        let burn = build.fuel_burn.then(|| Burn::new(chosen, &body)).transpose()?;
-        Self::assembled(chosen, &body, burn)
+        let burn = build.fuel_burn.then(|| Burn::new(chosen, body)).transpose()?;
+        Self::assembled(chosen, body, burn)
     }
 
     // A frame of its own, beside that of the burning vehicle.

@@ -9,8 +9,8 @@ use std::process::Command;
 /// Environment variable with the number of random sequences of calls.
 pub const SEQUENCES: &str = "AHV_FUZZ";
 
-/// Sequences where nobody says how many: half a minute in a release build.
-const FUZZ: &str = "20000";
+/// Sequences where nobody says how many: a minute and a half in a release build.
+const FUZZ: &str = "100000";
 /// A memory checker slows them down ten to fifty times.
 const SANITIZED: &str = "500";
 const WATCHED: &str = "40";
@@ -64,7 +64,7 @@ fn sanitizer_runtime() -> Option<PathBuf> {
 /// AddressSanitizer and its leak check, in the library and its tests (not in the standard library).
 pub fn sanitizer() -> Result<()> {
     if sanitizer_runtime().is_none() {
-        println!("left out: this toolchain has no AddressSanitizer");
+        note!("left out: this toolchain has no AddressSanitizer");
         return Ok(());
     }
     check(
@@ -83,7 +83,7 @@ pub fn sanitizer() -> Result<()> {
 /// A sample in valgrind: no invalid access, no use of unset memory, nothing lost.
 pub fn valgrind() -> Result<()> {
     if !works("valgrind", &["--version"]) {
-        println!("left out: valgrind is not installed");
+        note!("left out: valgrind is not installed");
         return Ok(());
     }
     let runner = "target.'cfg(all())'.runner = 'valgrind --quiet --error-exitcode=9 \

@@ -78,11 +78,11 @@ pub struct Package {
     /// Fail if a platform cannot be built for
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
-    /// Build for this machine alone, with its C library: sooner
+    /// Build for this machine alone, with its C library: sooner; written to target/ahv-host.fmu
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
     /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
-    /// darwin64
+    /// darwin64, aarch64-linux, aarch64-windows, aarch64-darwin
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
     #[command(flatten)]
@@ -126,7 +126,7 @@ pub struct Fly {
     /// Fly this FMU instead of building one
     #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
-    /// Build for this machine alone, with its C library: sooner
+    /// Build for this machine alone, with its C library: sooner; flies target/ahv-host.fmu
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,
     #[command(flatten)]
@@ -274,14 +274,17 @@ pub struct Reproduce {
     pub output: Option<PathBuf>,
 }
 
-/// Check everything: format, lints, Rust tests, description, package, FMU tests in Python
+/// Check: format, lints, Rust tests, description, package, FMU tests in FMPy; with --thorough, everything
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv test
-  cargo ahv test --fail-fast
-  cargo ahv test --all-targets    fail if the library for Windows cannot be built or run")]
+  cargo ahv test                             while you work: three minutes, once all is compiled
+  cargo ahv test --thorough                  before you hand something on: half an hour
+  cargo ahv test --thorough --all-targets    fail if the library for Windows cannot be built or run")]
 pub struct Test {
+    /// Examples, masters beyond FMPy, sanitizer, valgrind, 100,000 random sequences and Windows too
+    #[arg(long)]
+    pub thorough: bool,
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,

@@ -2,7 +2,7 @@
 
 use crate::cli::Describe;
 use crate::structure::{index, model_structure};
-use crate::workspace::{read_text, root, shown, write};
+use crate::workspace::{TEXT, read_text, root, shown, write};
 use crate::xml::Xml;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
 use ahv::fmi::exchange::EVENT_INDICATORS;
@@ -27,10 +27,10 @@ pub fn run(options: &Describe) -> Result<()> {
     let expected = xml()?;
     if !options.check {
         write(file, expected)?;
-        println!("{}: {} variables", shown(file), TABLE.len());
+        say!("{}: {} variables", shown(file), TABLE.len())?;
         return Ok(());
     }
-    let found = read_text(file)?;
+    let found = read_text(file, TEXT)?;
     if found != expected {
         let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
         bail!(
@@ -42,7 +42,7 @@ pub fn run(options: &Describe) -> Result<()> {
             expected.lines().nth(line).unwrap_or("(end of file)").trim(),
         );
     }
-    println!("{} is up to date", shown(file));
+    say!("{} is up to date", shown(file))?;
     Ok(())
 }
 

@@ -9,8 +9,9 @@ use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
-use crate::workspace::{root, shown, target, write};
+use crate::workspace::{Files, can_write, root, shown, target, write_together};
 use crate::{package, plot};
+use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::time::{Duration, Instant};
 
@@ -37,6 +38,8 @@ pub fn run(options: &Fly) -> Result<()> {
         None => package::fresh(Targets::Possible)?,
     };
     let fmu = Fmu::open(&file)?;
+    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
+    can_write(&directory.join("flight.csv"))?;
     let model = &fmu.model;
     let default = &model.experiment;
     let step = positive("--step", options.step.or(Some(STEP)))?;
@@ -59,8 +62,10 @@ pub fn run(options: &Fly) -> Result<()> {
     let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
     if stop / step > MAX_STEPS {
         bail!(
-            "--step {step} s makes {:.0e} steps in {stop} s; the record holds {MAX_STEPS:.0e}",
-            stop / step
+            "--step {} s makes {:.0e} steps in {} s; the record holds {MAX_STEPS:.0e}",
+            short(step),
+            stop / step,
+            short(stop)
         );
     }
     let flown = fly(&mut instance, model, &manoeuvre, step, stop)?;
@@ -68,26 +73,26 @@ pub fn run(options: &Fly) -> Result<()> {
         instance.terminate()?;
     }
 
-    println!("FMU          {}", shown(&file));
-    println!("inputs       {}", shown(&input));
-    println!("experiment   {stop} s in steps of {step} s, tolerance {tolerance:e}");
-    println!("set          {}", set_summary(&settings));
-    println!("\nCalculated at initialisation");
-    print!("{}", table(&calculated));
-    println!("\nLargest deviations from the start");
-    print!("{}", deviations(model, &flown.record));
-    print_messages(&instance);
-
-    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     let csv = directory.join("flight.csv");
-    write(&csv, flown.record.csv()?)?;
-    let figures = plot::write_figures(&flown.record, &directory)?;
-    println!();
-    for file in std::iter::once(&csv).chain(&figures) {
-        println!("wrote        {}", shown(file));
+    let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
+    files.extend(plot::figures(&flown.record, &directory)?);
+    write_together(&files)?;
+    say!("FMU          {}", shown(&file))?;
+    say!("inputs       {}", shown(&input))?;
+    let [duration, steps] = [stop, step].map(short);
+    say!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
+    say!("set          {}", set_summary(&settings))?;
+    say!("\nCalculated at initialisation")?;
+    put!("{}", table(&calculated))?;
+    say!("\nLargest deviations from the start")?;
+    put!("{}", deviations(model, &flown.record))?;
+    print_messages(&instance)?;
+    say!("")?;
+    for file in files.keys() {
+        say!("wrote        {}", shown(file))?;
     }
     let end = flown.record.rows.last().map_or(0.0, |row| row[0]);
-    println!("speed        {:.0} times real time", end / flown.spent.as_secs_f64());
+    say!("speed        {:.0} times real time", end / flown.spent.as_secs_f64())?;
     match flown.discarded {
         None => Ok(()),
         Some(reason) => bail!("the flight ended at {} s of {stop} s: {reason}", number(end)),
@@ -97,7 +102,7 @@ pub fn run(options: &Fly) -> Result<()> {
 pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     match value {
         Some(value) if value.is_finite() && value > 0.0 => Ok(value),
-        Some(value) => bail!("{option} {value}: a finite number above zero is expected"),
+        Some(value) => bail!("{option} {}: a finite number above zero is expected", short(value)),
         None => bail!("{option} is needed: the FMU has no default"),
     }
 }
@@ -209,14 +214,15 @@ fn deviations(model: &ModelDescription, record: &Record) -> String {
     table(&rows)
 }
 
-fn print_messages(instance: &Instance) {
+fn print_messages(instance: &Instance) -> Result<()> {
     let messages = instance.messages();
     if !messages.is_empty() {
-        println!("\nMessages of the FMU");
+        say!("\nMessages of the FMU")?;
     }
     for message in messages {
-        println!("  {} ({}): {}", status_name(message.status), message.category, message.text);
+        say!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
     }
+    Ok(())
 }
 
 #[cfg(test)]

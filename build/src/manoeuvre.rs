@@ -2,7 +2,7 @@
 
 use crate::model_description::{Causality, ModelDescription, Variable};
 use crate::settings::suggest;
-use crate::workspace::{read_text, shown};
+use crate::workspace::{TEXT, read_text, shown};
 use anyhow::{Result, bail};
 use std::path::Path;
 
@@ -25,7 +25,7 @@ struct Column<'t, 'a> {
 impl<'a> Manoeuvre<'a> {
     /// Reads a file.
     pub fn read(path: &Path, model: &'a ModelDescription) -> Result<Self> {
-        Self::parse(&read_text(path)?, &shown(path), model)
+        Self::parse(&read_text(path, TEXT)?, &shown(path), model)
     }
 
     /// Reads a text; `file` is its name in messages. Empty lines and those that start with `#`

@@ -3,11 +3,12 @@
 use crate::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID, decimals, label};
 use crate::panels::{PANELS, Panel};
 use crate::record::Record;
+use crate::workspace::Files;
 use anyhow::Result;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Size in pixels at scale one.
 const SIZE: (u32, u32) = (1100, 1000);
@@ -16,9 +17,9 @@ const LEFT: u32 = 54;
 /// Most labels on a vertical axis.
 const LABELS: usize = 7;
 
-/// Writes flight.svg and flight.png.
-pub fn write_figures(record: &Record, directory: &Path) -> Result<[PathBuf; 2]> {
-    figure::write(&Flight(record), SIZE, &directory.join("flight"))
+/// flight.svg and flight.png.
+pub fn figures(record: &Record, directory: &Path) -> Result<Files> {
+    figure::files(&Flight(record), SIZE, &directory.join("flight"))
 }
 
 struct Flight<'a>(&'a Record);

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::fmi::instance::LARGEST;
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::fmi::sys::{Status, StatusKind};
+use crate::short::short;
 
 /// What a call of the standard comes to.
 pub type Outcome = Result<(), Failure>;
@@ -32,7 +33,7 @@ pub enum Failure {
         place: &'static str,
     },
     /// An argument has a value that makes no sense.
-    #[error("{argument} = {value} is refused: {expected}")]
+    #[error("{argument} = {} is refused: {expected}", short(*value))]
     Argument {
         /// Name of the argument in the standard.
         argument: &'static str,
@@ -63,8 +64,9 @@ pub enum Failure {
     },
     /// A fixed parameter after initialisation.
     #[error(
-        "{variable} = {value} is refused: a fixed parameter can only be set before the end of \
-         the initialization mode"
+        "{variable} = {} is refused: a fixed parameter can only be set before the end of \
+         the initialization mode",
+        short(*value)
     )]
     TooLate {
         /// Name of the parameter.
@@ -92,8 +94,9 @@ pub enum Failure {
     },
     /// A direction or derivative that is no number, or too large a one.
     #[error(
-        "change of {variable} = {value} is refused: a finite number is needed, of a size up to \
-         {LARGEST:e}"
+        "change of {variable} = {} is refused: a finite number is needed, of a size up to \
+         {LARGEST:e}",
+        short(*value)
     )]
     Seed {
         /// Name of the variable.
@@ -102,7 +105,10 @@ pub enum Failure {
         value: f64,
     },
     /// A trial state that is no number.
-    #[error("{variable} = {value} is refused: a state is a finite number; take a shorter step")]
+    #[error(
+        "{variable} = {} is refused: a state is a finite number; take a shorter step",
+        short(*value)
+    )]
     State {
         /// Name of the state.
         variable: &'static str,

@@ -4,11 +4,10 @@ use super::chart;
 use super::precision::Point;
 use super::spread::Spread;
 use crate::table::{number, row, table};
-use crate::workspace::{root, shown, target, write};
+use crate::workspace::{DATA, Files, read_text, root, shown, write_together};
 use anyhow::Result;
 use serde::Serialize;
 use std::ffi::OsStr;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -46,12 +45,12 @@ pub fn says(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
 }
 
 fn machine() -> String {
-    let information = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let information = read_text(Path::new("/proc/cpuinfo"), DATA).unwrap_or_default();
     let name = information.lines().find_map(|line| line.strip_prefix("model name"));
     let name =
         name.map_or(std::env::consts::ARCH, |line| line.trim_start_matches([' ', '\t', ':']));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load = read_text(Path::new("/proc/loadavg"), DATA).unwrap_or_default();
     let load = load.split(' ').next().unwrap_or("unknown");
     format!("{name}, {cores} cores, load {load} before the run")
 }
@@ -83,7 +82,7 @@ impl Report {
         note: impl Into<String>,
     ) {
         let line = Line { what: what.into(), unit, value, note: note.into() };
-        eprintln!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
+        note!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
         self.lines.push(line);
     }
 
@@ -104,14 +103,19 @@ impl Report {
 
     pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
         let text = format!("{what}: {why:#}");
-        eprintln!("  left out: {text}");
+        note!("  left out: {text}");
         self.left_out.push(text);
     }
 
     /// Prints the table; writes bench.json and, with points, precision.svg and .png.
-    pub fn finish(&self, directory: Option<&Path>) -> Result<()> {
-        let directory = directory.map_or_else(|| target().join("bench"), Path::to_path_buf);
-        println!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "));
+    pub fn finish(&self, directory: &Path) -> Result<()> {
+        let json = serde_json::to_vec_pretty(self)?;
+        let mut files = Files::from([(directory.join("bench.json"), json)]);
+        if !self.points.is_empty() {
+            files.extend(chart::files(&self.points, directory)?);
+        }
+        write_together(&files)?;
+        say!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;
         let mut rows = vec![row(["", "median", "least", "largest", "unit", "note"])];
         for Line { what, unit, value, note } in &self.lines {
             let mut cells = vec![what.clone(), number(value.median)];
@@ -123,17 +127,13 @@ impl Report {
             cells.extend([(*unit).to_string(), note.clone()]);
             rows.push(cells);
         }
-        print!("{}", table(&rows));
+        put!("{}", table(&rows))?;
         for text in &self.left_out {
-            println!("  left out: {text}");
+            say!("  left out: {text}")?;
         }
-        let json = directory.join("bench.json");
-        write(&json, serde_json::to_string_pretty(self)?)?;
-        println!("\n{}", shown(&json));
-        if !self.points.is_empty() {
-            for file in chart::write(&self.points, &directory)? {
-                println!("{}", shown(&file));
-            }
+        say!("")?;
+        for file in files.keys() {
+            say!("{}", shown(file))?;
         }
         Ok(())
     }
