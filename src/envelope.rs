@@ -32,7 +32,8 @@ impl Limited {
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
         let (nearest, width) = (f64::min(self.value - min, max - self.value), max - min);
-        if width.is_finite() { nearest / width } else { nearest }
+        // The divisor is chosen, not the quotient: infinity over infinity would be computed too.
+        nearest / if width.is_finite() { width } else { 1.0 }
     }
 }
 

@@ -37,7 +37,7 @@ const SLOWEST: f64 = 500.0;
 const LOWEST: f64 = -1e6;
 
 /// Whether a trial state of our own integrator is so small that nothing overflows. Of one that is too
-/// large, over [`FAR`] and by two, the exponent has its highest bit.
+/// large, over `FAR` and by two, the exponent has its highest bit.
 #[inline(always)]
 pub fn is_finite(x: &State) -> bool {
     const HIGHEST: u64 = 1 << 62;

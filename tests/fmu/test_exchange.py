@@ -16,8 +16,8 @@ AGREEMENT = 2e-5
 STEPS = 10
 # Until then every vehicle is inside the envelope with the elevator off its trim by this, rad.
 EULER_STOP, ELEVATOR = 1.5, 5e-4
-# Share of the excursion, most of it in the third mode, which rings at first; and what rounding leaves
-# in trim, m and rad.
+# Share of the excursion, most of it in the third mode, which rings at first; and what rounding
+# leaves in trim, m and rad.
 EULER_ERROR, EULER_ROUNDING = 0.1, 1e-13
 
 
