@@ -2,7 +2,7 @@
 
 use crate::cli::Describe;
 use crate::structure::{index, model_structure};
-use crate::workspace::{read_text, root, shown, write};
+use crate::workspace::{TEXT, read_text, root, shown, write};
 use crate::xml::Xml;
 use ahv::flight::{DEFAULT_TOLERANCE, Flight};
 use ahv::fmi::exchange::EVENT_INDICATORS;
@@ -27,7 +27,7 @@ pub fn run(options: &Describe) -> Result<()> {
         println!("{}: {} variables", shown(file), TABLE.len());
         return Ok(());
     }
-    let found = read_text(file)?;
+    let found = read_text(file, TEXT)?;
     if found != expected {
         let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
         bail!(

@@ -1,6 +1,6 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
-use crate::workspace::{read_text, root};
+use crate::workspace::{TEXT, read_text, root};
 use ahv::flight::Flight;
 use ahv::variables::{Kind, Role, TABLE, Variable, guid};
 use anyhow::{Result, anyhow};
@@ -121,7 +121,7 @@ fn plain(value: f64) -> String {
 
 /// The changelog without its title, one level down.
 fn changes() -> Result<String> {
-    let text = read_text(&root().join("CHANGELOG.md"))?;
+    let text = read_text(&root().join("CHANGELOG.md"), TEXT)?;
     let text = text.split_once("\n## ").map_or("", |(_, versions)| versions);
     let text = format!("## {text}").replace("\n## ", "\n### ");
     let mut page = String::new();

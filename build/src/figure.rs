@@ -1,12 +1,12 @@
 //! A drawing, for screen (SVG) and print (PNG), and what all figures have in common.
 
 use crate::raster;
-use crate::workspace::write as write_file;
+use crate::workspace::Files;
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The PNG is drawn this much larger, ...
 const DRAWN: u32 = 4;
@@ -36,8 +36,8 @@ pub trait Drawing {
         B::ErrorType: 'static;
 }
 
-/// Writes `stem`.svg and `stem`.png; size in pixels at scale one.
-pub fn write(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<[PathBuf; 2]> {
+/// The files `stem`.svg and `stem`.png; size in pixels at scale one.
+pub fn files(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<Files> {
     // An own font: the figure looks the same on a machine that has none.
     register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
         .map_err(|_| anyhow!("the built-in font cannot be read"))?;
@@ -48,13 +48,13 @@ pub fn write(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<[P
     draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), drawing, DRAWN)?;
     let drawn = format!("width=\"{width}\" height=\"{height}\"");
     let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-    write_file(&svg, text.replacen(&drawn, &shown, 1))?;
+    let text = text.replacen(&drawn, &shown, 1);
 
     let mut pixels = vec![0; width as usize * height as usize * 3];
     let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
     draw(&backend.into_drawing_area(), drawing, DRAWN)?;
-    write_file(&png, raster::png(&pixels, width, AVERAGED)?)?;
-    Ok([svg, png])
+    let pixels = raster::png(&pixels, width, AVERAGED)?;
+    Ok(Files::from([(svg, text.into_bytes()), (png, pixels)]))
 }
 
 fn draw<B: DrawingBackend>(area: &Area<B>, drawing: &impl Drawing, scale: u32) -> Result<()>

@@ -4,7 +4,7 @@ mod regression;
 
 use crate::cli::Fit;
 use crate::table::{row, table};
-use crate::workspace::{read_text, root, shown, write};
+use crate::workspace::{DATA, read_text, root, shown, write};
 use ahv::atmosphere::Atmosphere;
 use ahv::dynamics::Vehicle;
 use ahv::modes::{FLEXIBLE, Modes};
@@ -55,7 +55,7 @@ pub fn run(options: &Fit) -> Result<()> {
     if !options.check {
         write(&file, text)?;
         println!("{} is written", shown(&file));
-    } else if read_text(&file)? != text {
+    } else if read_text(&file, DATA)? != text {
         bail!(
             "{} is not what the model says; run `cargo ahv fit`, then `cargo ahv describe`, and \
              commit the results",

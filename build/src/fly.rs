@@ -10,7 +10,7 @@ use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
-use crate::workspace::{root, shown, target, write};
+use crate::workspace::{Files, root, shown, target, write_together};
 use crate::{package, pilot, plot};
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -62,11 +62,12 @@ pub fn run(options: &Fly) -> Result<()> {
 
     let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     let csv = directory.join("flight.csv");
-    write(&csv, flown.record.csv()?)?;
     let title = title(model, &settings, &input);
-    let figures = plot::write_figures(&flown.record, &title, &directory)?;
+    let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
+    files.extend(plot::figures(&flown.record, &title, &directory)?);
+    write_together(&files)?;
     println!();
-    for file in std::iter::once(&csv).chain(&figures) {
+    for file in files.keys() {
         println!("wrote        {}", shown(file));
     }
     let end = flown.record.rows.last().map_or(0.0, |row| row[0]);

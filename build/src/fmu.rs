@@ -2,12 +2,19 @@
 
 use crate::model_description::ModelDescription;
 use crate::package::HOST;
-use crate::workspace::{read_text, shown};
+use crate::workspace::{BINARY, read, read_text, shown, write};
 use anyhow::{Context, Result, bail};
-use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::io::{Cursor, Read};
+use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 use zip::ZipArchive;
+
+/// Most files in an FMU; those with sources and documentation have hundreds.
+const ENTRIES: usize = 10_000;
+/// Most bytes that all files of an FMU unpack to.
+const UNPACKED: u64 = 2 * BINARY;
+/// Most bytes of a description; thousands of variables take a few million.
+const DESCRIPTION: u64 = 50_000_000;
 
 /// An unpacked FMU. The directory goes when this value does.
 pub struct Fmu {
@@ -21,21 +28,26 @@ impl Fmu {
     /// Unpacks a file and reads its description.
     pub fn open(file: &Path) -> Result<Self> {
         let name = shown(file);
-        let archive = File::open(file).with_context(|| format!("cannot open {name}"))?;
+        let content = read(file, BINARY)?;
         let directory = TempDir::with_prefix("fmu-")?;
-        ZipArchive::new(archive)
-            .and_then(|mut archive| archive.extract(directory.path()))
-            .with_context(|| format!("{name} is not an FMU: it cannot be unzipped"))?;
-        let xml = read_text(&directory.path().join("modelDescription.xml"))
-            .with_context(|| format!("{name} is not an FMU: it has no modelDescription.xml"))?;
+        unpack(&content, directory.path(), [ENTRIES as u64, UNPACKED])
+            .with_context(|| format!("{name} is not an FMU"))?;
+        let xml = directory.path().join("modelDescription.xml");
+        if !xml.exists() {
+            bail!("{name} is not an FMU: it has no modelDescription.xml");
+        }
+        let xml = read_text(&xml, DESCRIPTION).with_context(|| name.clone())?;
         let model = ModelDescription::parse(&xml).with_context(|| name.clone())?;
         let Some(co_simulation) =
             model.co_simulation.as_ref().filter(|_| model.fmi_version == "2.0")
         else {
             bail!("{name}: FMI {}; an FMU for FMI 2.0 co-simulation is needed", model.fmi_version);
         };
-        let binary =
-            format!("binaries/{}/{}.{}", HOST.name, co_simulation.model_identifier, HOST.ending);
+        let identifier = &co_simulation.model_identifier;
+        if !is_c_name(identifier) {
+            bail!("{name}: the modelIdentifier {identifier:?} is not the name of a C function");
+        }
+        let binary = format!("binaries/{}/{identifier}.{}", HOST.name, HOST.ending);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is not in it");
@@ -46,5 +58,103 @@ impl Fmu {
     /// URI of the resources, for the sake of the interface: an FMU may look there.
     pub fn resources(&self) -> String {
         format!("file://{}", self.directory.path().join("resources").display())
+    }
+}
+
+fn is_c_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+/// Unpacks a zip below a directory; what leads out of it is refused.
+fn unpack(content: &[u8], directory: &Path, [entries, bytes]: [u64; 2]) -> Result<()> {
+    let mut archive = ZipArchive::new(Cursor::new(content)).context("it cannot be unzipped")?;
+    if archive.len() as u64 > entries {
+        bail!("it has {} files; the limit is {entries}", archive.len());
+    }
+    let mut left = bytes;
+    for index in 0..archive.len() {
+        let entry = archive.by_index(index).context("it cannot be unzipped")?;
+        let name = entry.name().context("a file in it has no readable name")?.into_owned();
+        let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+        if entry.is_symlink() || !Path::new(&name).components().all(inside) {
+            bail!("{name:?} in it may lead out of the folder that it is unpacked to");
+        }
+        if entry.is_dir() {
+            continue;
+        }
+        let mut unpacked = Vec::new();
+        // What a header says of the size may be wrong.
+        entry
+            .take(left + 1)
+            .read_to_end(&mut unpacked)
+            .with_context(|| format!("{name:?} in it cannot be unzipped"))?;
+        left = left.checked_sub(unpacked.len() as u64).with_context(|| {
+            format!("it unpacks to more than {} MB, the limit", bytes / 1_000_000)
+        })?;
+        write(&directory.join(&name), unpacked)?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+    use zip::ZipWriter;
+    use zip::write::SimpleFileOptions;
+
+    fn archive(files: &[(&str, &[u8])]) -> Vec<u8> {
+        let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, content) in files {
+            zip.start_file(*name, SimpleFileOptions::default()).unwrap();
+            zip.write_all(content).unwrap();
+        }
+        zip.finish().unwrap().into_inner()
+    }
+
+    fn refused(content: &[u8], limits: [u64; 2]) -> String {
+        let scratch = TempDir::new().unwrap();
+        let inner = scratch.path().join("a/b");
+        let message = format!("{:#}", unpack(content, &inner, limits).unwrap_err());
+        assert!(!scratch.path().join("out.so").exists());
+        message
+    }
+
+    #[test]
+    fn bombs_and_ways_out_are_refused() {
+        const MANY: [u64; 2] = [100, 1_000_000];
+        let zeros = vec![0; 1_000_001];
+        let mut linked = ZipWriter::new(Cursor::new(Vec::new()));
+        linked.add_symlink("binaries", "/tmp", SimpleFileOptions::default()).unwrap();
+        let linked = linked.finish().unwrap().into_inner();
+        for (content, limits, told) in [
+            (archive(&[("../../out.so", b"x")]), MANY, "\"../../out.so\" in it may lead out"),
+            (archive(&[("/tmp/out.so", b"x")]), MANY, "may lead out"),
+            (linked, MANY, "\"binaries\" in it may lead out"),
+            (archive(&[("zeros", &zeros)]), MANY, "more than 1 MB, the limit"),
+            (
+                archive(&[("a", &zeros[..600_000]), ("b", &zeros[..600_000])]),
+                MANY,
+                "more than 1 MB",
+            ),
+            (archive(&[("a", b""), ("b", b"")]), [1, 10], "it has 2 files; the limit is 1"),
+            (b"no zip".to_vec(), MANY, "it cannot be unzipped"),
+        ] {
+            let message = refused(&content, limits);
+            assert!(message.contains(told), "{message}");
+        }
+        let good = archive(&[("modelDescription.xml", b"<x/>"), ("binaries/linux64/a.so", b"a")]);
+        let scratch = TempDir::new().unwrap();
+        unpack(&good, scratch.path(), MANY).unwrap();
+        assert!(scratch.path().join("binaries/linux64/a.so").exists());
+    }
+
+    #[test]
+    fn an_identifier_is_a_c_name() {
+        assert!(is_c_name("ahv") && is_c_name("_a1"));
+        for name in ["", "../../../tmp/evil", "1a", "a b", "a\\b"] {
+            assert!(!is_c_name(name), "{name}");
+        }
     }
 }

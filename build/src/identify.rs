@@ -11,7 +11,7 @@ mod stations;
 mod tradeoff;
 
 use crate::cli::{Identified, Identify};
-use crate::workspace::{read_text, root, shown, write};
+use crate::workspace::{DATA, read_text, root, shown, write};
 use ahv::params::{AeroData, DataFile, VehicleData};
 use ahv::vehicle::Data;
 use anyhow::{Result, bail};
@@ -32,14 +32,14 @@ const XU2015: &str = "src/data/aero/xu2015.toml";
 /// The data as the files have them now: each identification rests on what the other one wrote.
 fn data() -> Result<Data> {
     Ok(Data {
-        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE))?)?,
-        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015))?)?,
+        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE), DATA)?)?,
+        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015), DATA)?)?,
         ..Data::embedded()?
     })
 }
 
 fn beam(options: &Identify) -> Result<()> {
-    let before = read_text(&root().join(VEHICLE))?;
+    let before = read_text(&root().join(VEHICLE), DATA)?;
     let data = data()?;
     let model = beam::Model::new(data, beam::printed()?)?;
     let solution = model.solve()?;
@@ -80,7 +80,7 @@ fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> 
         tell("is written");
         return Ok(());
     }
-    let found = read_text(&file)?;
+    let found = read_text(&file, DATA)?;
     if found == text {
         tell("is what comes out");
         return Ok(());

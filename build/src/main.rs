@@ -51,7 +51,7 @@ fn main() -> ExitCode {
         report(panic);
     }));
     let command = Cli::parse().command;
-    match own::run(&command) {
+    match workspace::locate().and_then(|()| own::run(&command)) {
         Ok(None) => {}
         Ok(Some(code)) => return code,
         Err(error) => return failed(&error),

@@ -7,7 +7,7 @@ mod rows;
 mod text;
 
 use crate::model_description::{ModelDescription, Variable};
-use crate::workspace::{read, shown};
+use crate::workspace::{TEXT, read, shown};
 use anyhow::Result;
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub struct Course {
 impl<'a> Manoeuvre<'a> {
     /// Reads a file.
     pub fn read(path: &Path, model: &'a ModelDescription) -> Result<Self> {
-        Self::parse(&read(path)?, &shown(path), model)
+        Self::parse(&read(path, TEXT)?, &shown(path), model)
     }
 
     /// Reads the bytes of a file; `file` is its name in messages.

@@ -1,7 +1,7 @@
 //! The user's own vehicle: the same command again, by a tool that is built with the user's data.
 
 use crate::cli::Command;
-use crate::workspace::{cargo, read_text, root, shown, target};
+use crate::workspace::{DATA, cargo, read_text, root, shown, target};
 use ahv::params::{AeroData, DataFile, VehicleData};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -71,6 +71,6 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
 
 /// Refuses a file that is not the data of a vehicle; where it is.
 fn check<T: DataFile>(file: &Path) -> Result<PathBuf> {
-    T::parse(&shown(file), &read_text(file)?)?;
+    T::parse(&shown(file), &read_text(file, DATA)?)?;
     file.canonicalize().with_context(|| format!("cannot find {}", shown(file)))
 }

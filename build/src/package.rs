@@ -13,7 +13,7 @@ mod windows;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{read, shown, target, write};
+use crate::workspace::{BINARY, read, shown, target, write};
 use crate::{documentation, licenses};
 use anyhow::{Result, bail};
 use binary::Binary;
@@ -70,7 +70,7 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
     files.extend(reference(&files)?);
     write_fmu(files, output)?;
     for (platform, library) in &libraries.found {
-        let binary = Binary::parse(&read(library)?)?;
+        let binary = Binary::parse(&read(library, BINARY)?)?;
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
         println!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "));
@@ -118,12 +118,12 @@ impl Libraries {
         match library::zig() {
             Ok(zig) => {
                 let library = library::for_linux(&zig)?;
-                Binary::parse(&read(&library)?)?.check(LINUX)?;
+                Binary::parse(&read(&library, BINARY)?)?.check(LINUX)?;
                 libraries.found.push((LINUX, library));
             }
             Err(error) => {
                 let library = library::for_host()?;
-                let glibc = Binary::parse(&read(&library)?)?.glibc.unwrap_or_default();
+                let glibc = Binary::parse(&read(&library, BINARY)?)?.glibc.unwrap_or_default();
                 libraries.missing.push(format!(
                     "linux64 is for machines like this one: it needs glibc {}.{}. For glibc 2.17 \
                      the linker of zig is needed: {error:#}",
@@ -135,7 +135,7 @@ impl Libraries {
         match windows::toolchain() {
             Ok(toolchain) => {
                 let library = library::for_windows(toolchain)?;
-                Binary::parse(&read(&library)?)?.check(WINDOWS)?;
+                Binary::parse(&read(&library, BINARY)?)?.check(WINDOWS)?;
                 libraries.found.push((WINDOWS, library));
             }
             Err(error) => libraries.missing.push(format!("{error:#}")),
@@ -157,7 +157,7 @@ fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
     let mut machines = Vec::new();
     for (platform, library) in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
-        let library = read(library)?;
+        let library = read(library, BINARY)?;
         let glibc = Binary::parse(&library).ok().and_then(|binary| binary.glibc);
         machines.push(platform.machines(glibc));
         files.insert(name, library);

@@ -4,11 +4,12 @@ use crate::curve::{Curve, dashes};
 use crate::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID, decimals, label};
 use crate::panels::{PANELS, Panel};
 use crate::record::Record;
+use crate::workspace::Files;
 use anyhow::Result;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 // Sizes in pixels at scale one. The text is large, so that it can be read on a phone.
 const WIDTH: u32 = 800;
@@ -29,8 +30,8 @@ const LABELS: usize = 6;
 /// Columns of pixels of the PNG for one at scale one.
 const FINE: usize = 2;
 
-/// Writes flight.svg and flight.png.
-pub fn write_figures(record: &Record, title: &str, directory: &Path) -> Result<[PathBuf; 2]> {
+/// flight.svg and flight.png.
+pub fn figures(record: &Record, title: &str, directory: &Path) -> Result<Files> {
     let title = lines(title, CHARACTERS);
     let mut panels = moving(record, false);
     if panels.is_empty() {
@@ -38,7 +39,7 @@ pub fn write_figures(record: &Record, title: &str, directory: &Path) -> Result<[
     }
     let rows = panels.len().div_ceil(2) as u32;
     let height = 2 * MARGIN + LINE * title.len() as u32 + ROW * rows + TIME;
-    figure::write(&Flight { title, panels }, (WIDTH, height), &directory.join("flight"))
+    figure::files(&Flight { title, panels }, (WIDTH, height), &directory.join("flight"))
 }
 
 /// Panels with their curves: of what moves, or all.
@@ -217,9 +218,8 @@ mod tests {
         let wave = |n: i32, rate: f64| (f64::from(n) * rate).sin();
         let rows = (0..200_000).map(|n| vec![f64::from(n) * 1e-3, wave(n, 0.3), wave(n, 0.7)]);
         let record = Record { names, rows: rows.collect() };
-        let folder = tempfile::tempdir().unwrap();
-        let [svg, _] = write_figures(&record, "many", folder.path()).unwrap();
-        let size = std::fs::metadata(svg).unwrap().len();
-        assert!(size < 1_000_000, "{size} bytes");
+        for (file, content) in figures(&record, "many", Path::new("")).unwrap() {
+            assert!(content.len() < 1_000_000, "{}: {} bytes", file.display(), content.len());
+        }
     }
 }

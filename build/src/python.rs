@@ -1,6 +1,6 @@
 //! Python programs with exactly the locked packages.
 
-use crate::workspace::{check, read, shown, target, write};
+use crate::workspace::{TEXT, check, read, shown, target, write};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -16,12 +16,12 @@ pub struct Environment {
 ///
 /// A copy of the lock, written last, says that the environment is complete.
 pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
-    let wanted = read(lock)?;
+    let wanted = read(lock, TEXT)?;
     let directory = target().join(name);
     let stamp = directory.join("requirements.lock");
     let programs = directory.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let python = programs.join(if cfg!(windows) { "python.exe" } else { "python" });
-    if stamp.exists() && python.exists() && read(&stamp)? == wanted {
+    if stamp.exists() && python.exists() && read(&stamp, TEXT)? == wanted {
         return Ok(Environment { programs, python });
     }
     eprintln!("making {} from {}", shown(&directory), shown(lock));

@@ -1,55 +1,80 @@
 //! Where things are.
 
+mod files;
+
 use anyhow::{Context, Result, bail};
-use std::fs;
+pub use files::{BINARY, DATA, Files, TEXT, read, read_text, write, write_together};
+use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
-/// The repository.
+/// Name of the root package.
+const PACKAGE: &str = "ahv-fmu";
+
+/// The repository. It is looked for when the tool runs: a copied or moved tree works on itself.
 pub fn root() -> &'static Path {
-    let build = Path::new(env!("CARGO_MANIFEST_DIR"));
-    build.parent().unwrap_or(build)
+    static ROOT: OnceLock<PathBuf> = OnceLock::new();
+    ROOT.get_or_init(|| search(&places()).unwrap_or_default())
+}
+
+/// Fails if there is no repository to work on.
+pub fn locate() -> Result<()> {
+    if root().as_os_str().is_empty() {
+        let places: Vec<_> = places().iter().map(|place| place.display().to_string()).collect();
+        bail!("no sources of ahv at or above {}; run the command there", places.join(" or "));
+    }
+    Ok(())
+}
+
+/// Where to look, best first: what Cargo says, the tool's own place, the current directory. The tool
+/// lies elsewhere if `CARGO_TARGET_DIR` is set.
+fn places() -> Vec<PathBuf> {
+    let cargo = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    [cargo, env::current_exe().ok(), env::current_dir().ok()].into_iter().flatten().collect()
+}
+
+/// The nearest repository at or above the first place that has one.
+fn search(places: &[PathBuf]) -> Option<PathBuf> {
+    places
+        .iter()
+        .flat_map(|place| place.ancestors())
+        .find(|place| is_root(place))
+        .map(Path::to_path_buf)
+}
+
+fn is_root(directory: &Path) -> bool {
+    let manifest = read_text(&directory.join("Cargo.toml"), DATA);
+    let table = manifest.ok().and_then(|text| text.parse::<toml::Table>().ok());
+    let name = table.as_ref().and_then(|table| table.get("package")?.get("name")?.as_str());
+    name == Some(PACKAGE)
 }
 
 /// Where build products go.
 pub fn target() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR")
-        .map_or_else(|| root().join("target"), |directory| root().join(directory))
+    target_by_environment().unwrap_or_else(|| root().join("target"))
+}
+
+/// Cargo takes it from the directory in which it was called.
+fn target_by_environment() -> Option<PathBuf> {
+    let directory = env::var_os("CARGO_TARGET_DIR")?;
+    std::path::absolute(directory).ok()
 }
 
 /// The Cargo that runs this tool, started in the repository.
 pub fn cargo() -> Command {
-    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
+    if let Some(target) = target_by_environment() {
+        command.env("CARGO_TARGET_DIR", target);
+    }
     command
 }
 
 /// How a path is shown: short if it lies below the current directory.
 pub fn shown(path: &Path) -> String {
-    let here = std::env::current_dir().unwrap_or_default();
+    let here = env::current_dir().unwrap_or_default();
     path.strip_prefix(here).unwrap_or(path).display().to_string()
-}
-
-/// Writes a file and the directories above it.
-pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
-    if let Some(directory) = path.parent() {
-        fs::create_dir_all(directory)
-            .with_context(|| format!("cannot create the directory {}", shown(directory)))?;
-    }
-    fs::write(path, content).with_context(|| format!("cannot write {}", shown(path)))
-}
-
-/// Reads a file.
-pub fn read(path: &Path) -> Result<Vec<u8>> {
-    fs::read(path).with_context(|| format!("cannot read {}", shown(path)))
-}
-
-/// Reads a text file.
-pub fn read_text(path: &Path) -> Result<String> {
-    match String::from_utf8(read(path)?) {
-        Ok(text) => Ok(text),
-        Err(_) => bail!("{} is not a text file in UTF-8", shown(path)),
-    }
 }
 
 /// Runs a command that has to succeed.
@@ -62,3 +87,6 @@ pub fn check(command: &mut Command) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

@@ -135,6 +135,11 @@ impl<'a> Slave<'a> {
         unsafe { (self.api.set_real)(self.c, references.as_ptr(), values.len(), values.as_ptr()) }
     }
 
+    /// The derivative of an order of an input, for the next step.
+    pub fn set_input_derivative(&self, name: &str, order: i32, value: f64) -> Status {
+        unsafe { (self.api.set_input_derivatives)(self.c, &reference(name), 1, &order, &value) }
+    }
+
     pub fn set_integer(&self, name: &str, value: i32) -> Status {
         unsafe { (self.api.set_integer)(self.c, &reference(name), 1, &value) }
     }

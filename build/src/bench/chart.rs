@@ -2,10 +2,11 @@
 
 use super::precision::{OURS, Point};
 use crate::figure::{self, Area, Drawing, Drawn, FONT, FRAME, GRID};
+use crate::workspace::Files;
 use anyhow::Result;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Size in pixels at scale one.
 const SIZE: (u32, u32) = (900, 560);
@@ -25,9 +26,9 @@ const COLOURS: [RGBColor; 10] = [
     RGBColor(200, 120, 200),
 ];
 
-/// Writes precision.svg and precision.png.
-pub fn write(points: &[Point], directory: &Path) -> Result<[PathBuf; 2]> {
-    figure::write(&Precision(points), SIZE, &directory.join("precision"))
+/// precision.svg and precision.png.
+pub fn files(points: &[Point], directory: &Path) -> Result<Files> {
+    figure::files(&Precision(points), SIZE, &directory.join("precision"))
 }
 
 struct Precision<'a>(&'a [Point]);

@@ -8,7 +8,7 @@ use crate::cli::{Probe, Set};
 use crate::methods::Law;
 use crate::test::works;
 use crate::trim::{flight, model, ready};
-use crate::workspace::target;
+use crate::workspace::{TEXT, read_text, target};
 use anyhow::{Context, Result, bail};
 use std::hint::black_box;
 use std::process::Command;
@@ -52,7 +52,7 @@ fn count(probe: &str, calls: usize) -> Result<f64> {
     if !output.status.success() {
         bail!("valgrind: {}", String::from_utf8_lossy(&output.stderr));
     }
-    let text = std::fs::read_to_string(&file)?;
+    let text = read_text(&file, TEXT)?;
     let total = text.lines().find_map(|line| line.strip_prefix("totals: "));
     Ok(total.context("callgrind wrote no totals")?.trim().parse()?)
 }

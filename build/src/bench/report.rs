@@ -4,11 +4,10 @@ use super::chart;
 use super::precision::Point;
 use super::spread::Spread;
 use crate::table::{number, row, table};
-use crate::workspace::{root, shown, target, write};
+use crate::workspace::{DATA, Files, read_text, root, shown, target, write_together};
 use anyhow::Result;
 use serde::Serialize;
 use std::ffi::OsStr;
-use std::fs;
 use std::path::Path;
 use std::process::Command;
 
@@ -46,12 +45,12 @@ pub fn says(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
 }
 
 fn machine() -> String {
-    let information = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let information = read_text(Path::new("/proc/cpuinfo"), DATA).unwrap_or_default();
     let name = information.lines().find_map(|line| line.strip_prefix("model name"));
     let name =
         name.map_or(std::env::consts::ARCH, |line| line.trim_start_matches([' ', '\t', ':']));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
+    let load = read_text(Path::new("/proc/loadavg"), DATA).unwrap_or_default();
     let load = load.split(' ').next().unwrap_or("unknown");
     format!("{name}, {cores} cores, load {load} before the run")
 }
@@ -127,13 +126,15 @@ impl Report {
         for text in &self.left_out {
             println!("  left out: {text}");
         }
-        let json = directory.join("bench.json");
-        write(&json, serde_json::to_string_pretty(self)?)?;
-        println!("\n{}", shown(&json));
+        let json = serde_json::to_vec_pretty(self)?;
+        let mut files = Files::from([(directory.join("bench.json"), json)]);
         if !self.points.is_empty() {
-            for file in chart::write(&self.points, &directory)? {
-                println!("{}", shown(&file));
-            }
+            files.extend(chart::files(&self.points, &directory)?);
+        }
+        write_together(&files)?;
+        println!();
+        for file in files.keys() {
+            println!("{}", shown(file));
         }
         Ok(())
     }

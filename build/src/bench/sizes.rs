@@ -6,13 +6,15 @@ use super::spread::Spread;
 use crate::fmu::Fmu;
 use crate::master::Instance;
 use crate::package::{self, Targets};
+use crate::workspace::{DATA, read_text};
 use ahv::flight::DEFAULT_TOLERANCE;
 use ahv::fmi::snapshot::FmuState;
 use anyhow::{Context, Result};
+use std::path::Path;
 
 /// Resident memory of this process, kB.
 fn resident() -> Result<f64> {
-    let status = std::fs::read_to_string("/proc/self/status")?;
+    let status = read_text(Path::new("/proc/self/status"), DATA)?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"));
     let text = line.context("no VmRSS in /proc/self/status")?;
     Ok(text.trim().trim_end_matches(" kB").trim().parse()?)

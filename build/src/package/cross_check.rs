@@ -8,7 +8,7 @@ use crate::manoeuvre::Manoeuvre;
 use crate::master::Instance;
 use crate::model_description::Causality;
 use crate::pilot;
-use crate::workspace::{read, root};
+use crate::workspace::{TEXT, read, root};
 use anyhow::{Result, bail};
 
 /// Where a file of the set is in the FMU.
@@ -43,7 +43,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let options =
         format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{step:?}\nRelTol,{tolerance:?}\n");
     Ok(Files::from([
-        (path("in.csv"), read(&input)?),
+        (path("in.csv"), read(&input, TEXT)?),
         (path("ref.csv"), flown.record.csv()?.into_bytes()),
         (path("ref.opt"), options.into_bytes()),
     ]))

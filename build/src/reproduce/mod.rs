@@ -25,7 +25,7 @@ mod verdict;
 mod work;
 
 use crate::cli;
-use crate::workspace::{read_text, shown, target, write};
+use crate::workspace::{shown, target, write_together};
 use anyhow::Result;
 use clap::ValueEnum;
 
@@ -70,19 +70,23 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
         only => only,
     };
     let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
-    let report = work::Work::new(parts, directory.join("figures"))?.report(&sets)?;
+    let work = work::Work::new(parts, directory.join("figures"))?;
+    let report = work.report(&sets)?;
+    let mut files = work.drawn.into_inner();
 
     let markdown = markdown::render(&report);
-    let svg = |link: &str| read_text(&directory.join(link)).ok();
+    let svg = |link: &str| String::from_utf8(files.get(&directory.join(link))?.clone()).ok();
     let html = html::render(&markdown, "The paper's results beside ours", svg);
     for (name, content) in [
         ("report.html", html),
         ("report.md", markdown),
         ("report.json", format!("{:#}\n", serde_json::to_value(&report)?)),
     ] {
-        let path = directory.join(name);
-        write(&path, content)?;
-        println!("{}", shown(&path));
+        files.insert(directory.join(name), content.into_bytes());
+    }
+    write_together(&files)?;
+    for file in files.keys() {
+        println!("{}", shown(file));
     }
     println!("done in {:.1} s", started.elapsed().as_secs_f64());
     Ok(())

@@ -13,14 +13,16 @@ use super::sweep::{Parameter, Sweep};
 use super::tables::{Table, table1, table2, table3};
 use super::veering::Veering;
 use super::{Part, claims};
-use crate::figure::{Drawing, write};
+use crate::figure::{Drawing, files};
 use crate::identify::{Place, TradeOff};
 use crate::published::Published;
+use crate::workspace::Files;
 use ahv::assembly::Chosen;
 use ahv::modes::Modes;
 use ahv::parameters::Parameters;
 use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
 use anyhow::Result;
+use std::cell::RefCell;
 use std::path::PathBuf;
 
 const CONFIGURATIONS: [Configuration; 3] =
@@ -35,6 +37,8 @@ const SWEEPS: [(Parameter, Part, &str, &str); 3] = [
 pub struct Work<'a> {
     parts: &'a [Part],
     figures: PathBuf,
+    /// The figures so far.
+    pub drawn: RefCell<Files>,
     data: Data,
     published: Published,
     base: Build,
@@ -44,7 +48,8 @@ impl<'a> Work<'a> {
     pub fn new(parts: &'a [Part], figures: PathBuf) -> Result<Self> {
         let data = Data::embedded()?;
         let base = Parameters::new(&data).build;
-        Ok(Self { parts, figures, data, published: Published::embedded()?, base })
+        let drawn = RefCell::default();
+        Ok(Self { parts, figures, drawn, data, published: Published::embedded()?, base })
     }
 
     fn wants(&self, parts: &[Part]) -> bool {
@@ -186,8 +191,8 @@ impl<'a> Work<'a> {
     }
 
     fn draw(&self, drawing: &impl Drawing, size: (u32, u32), file: &str) -> Result<()> {
-        println!("figures/{file}.svg, .png");
-        write(drawing, size, &self.figures.join(file))?;
+        println!("figure: {file}");
+        self.drawn.borrow_mut().extend(files(drawing, size, &self.figures.join(file))?);
         Ok(())
     }
 

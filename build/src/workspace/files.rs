@@ -1,0 +1,113 @@
+//! Reading and writing of files: a reader takes no more than it can use, a writer replaces all or nothing.
+
+use super::shown;
+use anyhow::{Context, Result, bail};
+use std::collections::BTreeMap;
+use std::fs::{self, File, Permissions};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// Most bytes of a data file; ours have 8 kB.
+pub const DATA: u64 = 1_000_000;
+/// Most bytes of a text: a record of a million steps has 200 MB.
+pub const TEXT: u64 = 500_000_000;
+/// Most bytes of a library or an FMU.
+pub const BINARY: u64 = 500_000_000;
+
+/// Contents of files that belong together, by their paths.
+pub type Files = BTreeMap<PathBuf, Vec<u8>>;
+
+/// Reads a regular file of at most `most` bytes. Devices and pipes may never end.
+#[allow(clippy::disallowed_methods)]
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let name = shown(path);
+    let cannot = || format!("cannot read {name}");
+    let kind = fs::metadata(path).with_context(cannot)?;
+    if kind.is_dir() {
+        bail!("{name} is a directory; a file is expected");
+    }
+    if !kind.is_file() {
+        bail!("{name} is a device or a pipe; a regular file is expected");
+    }
+    let mut content = Vec::new();
+    let file = File::open(path).with_context(cannot)?;
+    file.take(most + 1).read_to_end(&mut content).with_context(cannot)?;
+    if content.len() as u64 > most {
+        bail!("{name} is too large: the limit for such a file is {} MB", most / 1_000_000);
+    }
+    Ok(content)
+}
+
+/// Reads a text file of at most `most` bytes.
+pub fn read_text(path: &Path, most: u64) -> Result<String> {
+    match String::from_utf8(read(path, most)?) {
+        Ok(text) => Ok(text),
+        Err(_) => bail!("{} is not a text file in UTF-8", shown(path)),
+    }
+}
+
+/// Writes a file and the directories above it; after a failure the old file is still there, whole.
+pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
+    Staged::new(path, content.as_ref())?.rename()
+}
+
+/// Writes files that belong together: all of them are on the disk before the first takes its name.
+pub fn write_together(files: &Files) -> Result<()> {
+    let staged = files.iter().map(|(path, content)| Staged::new(path, content));
+    for (done, staged) in staged.collect::<Result<Vec<_>>>()?.into_iter().enumerate() {
+        staged.rename().with_context(|| {
+            format!("{done} of {} files that belong together are new, the others old", files.len())
+        })?;
+    }
+    Ok(())
+}
+
+/// A file written beside its place. It goes if it is dropped.
+struct Staged {
+    file: NamedTempFile,
+    path: PathBuf,
+}
+
+impl Staged {
+    fn new(path: &Path, content: &[u8]) -> Result<Self> {
+        let cannot = || format!("cannot write {}", shown(path));
+        let old = fs::metadata(path).ok();
+        // A link stays one: its file is replaced.
+        let path = match &old {
+            Some(old) if old.is_dir() => bail!("{}: it is a directory", cannot()),
+            Some(old) if !old.is_file() => bail!("{}: it is a device or a pipe", cannot()),
+            Some(old) if old.permissions().readonly() => bail!("{}: it is read-only", cannot()),
+            Some(_) => path.canonicalize().with_context(cannot)?,
+            None => std::path::absolute(path).with_context(cannot)?,
+        };
+        let directory = path.parent().with_context(cannot)?;
+        fs::create_dir_all(directory)
+            .with_context(|| format!("cannot create the directory {}", shown(directory)))?;
+        let mut file = beside(directory).with_context(cannot)?;
+        file.write_all(content).with_context(cannot)?;
+        if let Some(old) = old {
+            file.as_file().set_permissions(old.permissions()).with_context(cannot)?;
+        }
+        // Some disks notice only now that they are full.
+        file.as_file().sync_all().with_context(cannot)?;
+        Ok(Self { file, path })
+    }
+
+    fn rename(self) -> Result<()> {
+        let Self { file, path } = self;
+        file.persist(&path).with_context(|| format!("cannot write {}", shown(&path)))?;
+        Ok(())
+    }
+}
+
+/// A new file with the permissions that every new file has.
+fn beside(directory: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    builder.prefix(".ahv-");
+    #[cfg(unix)]
+    let permissions: Permissions = std::os::unix::fs::PermissionsExt::from_mode(0o666);
+    #[cfg(unix)]
+    builder.permissions(permissions);
+    builder.tempfile_in(directory)
+}
