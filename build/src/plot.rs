@@ -118,11 +118,11 @@ fn draw_panel<B: DrawingBackend>(
         .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
         .set_label_area_size(LabelAreaPosition::Bottom, if last { 22 + TIME } else { 22 } * scale)
         .build_cartesian_2d(0.0..if end > 0.0 { end } else { 1.0 }, min..max)?;
-    let decimals = decimals(max - min, LABELS);
+    let decimals = decimals(min..max, LABELS);
     let text = (FONT, TEXT * scale).into_font().color(&BLACK);
     chart
         .configure_mesh()
-        .x_labels(6)
+        .x_labels(8)
         .y_labels(LABELS)
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(scale))

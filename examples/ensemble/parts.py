@@ -100,7 +100,8 @@ class Parts:
             except (pa.ArrowException, OSError) as failure:
                 said.append(f"{path} is damaged, its flights are flown again: {failure}")
                 continue
-            if table.schema.equals(self.schema, check_metadata=True) and same(table, batch):
+            own = (table.schema.metadata or {}).get(KEY) == self.schema.metadata[KEY]
+            if own and table.schema.equals(self.schema) and same(table, batch):
                 tables[number] = table.replace_schema_metadata(None)
             else:
                 said.append(f"{path} is of another ensemble, its flights are flown again")

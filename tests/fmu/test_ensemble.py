@@ -133,14 +133,14 @@ def test_running_again_flies_only_what_is_missing(
 
 def test_two_ensembles_are_not_mixed(package: Package, flown: Path, tmp_path: Path) -> None:
     other = run(package, flown, "--seed", "2")
-    assert other.returncode == 1 and "holds another ensemble: seed differ" in other.stderr
+    assert other.returncode == 1 and "holds another ensemble; differing: seed" in other.stderr
     # Another FMU, by a byte that says nothing.
     fmu = tmp_path / "ahv.fmu"
     shutil.copy(package.path, fmu)
     with zipfile.ZipFile(fmu, "a") as archive:
         archive.writestr("extra/note.txt", "another")
     other = run(package, flown, "--fmu", str(fmu))
-    assert other.returncode == 1 and "holds another ensemble: fmu differ" in other.stderr
+    assert other.returncode == 1 and "holds another ensemble; differing: fmu" in other.stderr
 
 
 def test_the_law_belongs_to_the_ensemble(package: Package, tmp_path: Path) -> None:
@@ -150,7 +150,7 @@ def test_the_law_belongs_to_the_ensemble(package: Package, tmp_path: Path) -> No
     rounded = Law(**vars(law) | {"K": law.K * (1.0 + 1e-12)})
     again, same = claim(tmp_path, {"seed": 1}, rounded)
     assert same == identity and np.array_equal(again.K, first.K)
-    with pytest.raises(AnotherEnsemble, match="law differ"):
+    with pytest.raises(AnotherEnsemble, match="differing: law"):
         claim(tmp_path, {"seed": 1}, Law(**vars(law) | {"K": law.K * 1.01}))
 
 
