@@ -7,7 +7,7 @@ use crate::record::Record;
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 
-/// Steps of which a record is kept; each takes about 200 bytes of memory and of the CSV file.
+/// Steps of which a record is kept; each takes some 250 bytes of memory and 600 of the CSV file.
 const MAX_STEPS: usize = 1_000_000;
 /// Communication points closer than this share of a step are one.
 const SAME_INSTANT: f64 = 1e-6;
