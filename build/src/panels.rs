@@ -57,7 +57,6 @@ pub const PANELS: [Panel; 9] = [
         factor: MILLIMETRES,
         deviation: true,
         least: 0.05,
-        ..PANEL
     },
     Panel {
         title: "Slosh s − s(0), mm",
@@ -65,6 +64,5 @@ pub const PANELS: [Panel; 9] = [
         factor: MILLIMETRES,
         deviation: true,
         least: 0.05,
-        ..PANEL
     },
 ];
