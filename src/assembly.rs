@@ -107,17 +107,14 @@ impl Chosen {
         Ok((beam.with_moments(&oscillators, centre, inertia)?, oscillators))
     }
 
-    /// The same with the inertial measurement unit where Table 3 reads the flight-path angle.
-    ///
-    /// # Errors
-    /// Those of [`Chosen::structure`].
-    pub fn sensed_as_printed(mut self) -> Result<Self, Error> {
-        let (beam, oscillators) = self.structure()?;
+    /// The same with the inertial measurement unit where Table 3 reads the flight-path angle: ahead of
+    /// the mass centre, which is that of the body, in m from the nose.
+    pub fn sensed_as_printed(mut self, mass_centre_m: f64) -> Self {
         let offset = match self.build.configuration {
             Configuration::Rigid => 0.0,
             _ => self.aero.reference.gamma_offset_m.as_ref().map_or(0.0, |offset| offset.value),
         };
-        self.build.stations.imu = beam.mass_properties(&oscillators).centre_m + offset;
-        Ok(self)
+        self.build.stations.imu = mass_centre_m + offset;
+        self
     }
 }

@@ -122,11 +122,15 @@ pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), 
 /// Beam, sloshing masses and modes of a vehicle at one fuel level.
 #[derive(Debug, Clone)]
 pub struct Body {
-    beam: Beam,
-    oscillators: Vec<Oscillator>,
-    modes: Modes,
+    /// Beam.
+    pub beam: Beam,
+    /// Sloshing masses.
+    pub oscillators: Vec<Oscillator>,
+    /// Modes of both together.
+    pub modes: Modes,
+    /// Mass, mass centre and pitch inertia of both together.
+    pub properties: MassProperties,
     strips: Strips,
-    properties: MassProperties,
 }
 
 impl Body {
@@ -215,10 +219,17 @@ impl Vehicle {
     /// # Errors
     /// Those of [`Vehicle::new`].
     pub fn chosen(chosen: &Chosen) -> Result<Self, Error> {
+        Self::with_body(chosen, &Body::new(chosen)?)
+    }
+
+    /// The same around a body that is known: that of [`Body::new`].
+    ///
+    /// # Errors
+    /// Those of [`Vehicle::new`].
+    pub fn with_body(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
         let Chosen { vehicle, earth, aero, build } = chosen;
         build.stations.check(vehicle.geometry.length_m.value)?;
-        let body = Body::new(chosen)?;
-        let burn = build.fuel_burn.then(|| Burn::new(chosen, &body)).transpose()?;
+        let burn = build.fuel_burn.then(|| Burn::new(chosen, body)).transpose()?;
         Ok(Self {
             atmosphere: Atmosphere::new(earth),
             aero: Aero::new(aero),

@@ -9,8 +9,8 @@ use std::process::Command;
 /// Environment variable with the number of random sequences of calls.
 pub const SEQUENCES: &str = "AHV_FUZZ";
 
-/// Sequences where nobody says how many: half a minute in a release build.
-const FUZZ: &str = "20000";
+/// Sequences where nobody says how many: a minute and a half in a release build.
+const FUZZ: &str = "100000";
 /// A memory checker slows them down ten to fifty times.
 const SANITIZED: &str = "500";
 const WATCHED: &str = "40";

@@ -274,14 +274,17 @@ pub struct Reproduce {
     pub output: Option<PathBuf>,
 }
 
-/// Check everything: format, lints, Rust tests, description, package, FMU tests in Python
+/// Check: format, lints, Rust tests, description, package, FMU tests in FMPy; with --thorough, everything
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv test
-  cargo ahv test --fail-fast
-  cargo ahv test --all-targets    fail if the library for Windows cannot be built or run")]
+  cargo ahv test                             while you work: three minutes, once all is compiled
+  cargo ahv test --thorough                  before you hand something on: half an hour
+  cargo ahv test --thorough --all-targets    fail if the library for Windows cannot be built or run")]
 pub struct Test {
+    /// Examples, masters beyond FMPy, sanitizer, valgrind, 100,000 random sequences and Windows too
+    #[arg(long)]
+    pub thorough: bool,
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,

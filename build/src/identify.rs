@@ -1,6 +1,7 @@
 //! Identification: numbers that are not published, from results that are.
 
 mod beam;
+mod bodies;
 mod cells;
 mod fit;
 mod knowledge;

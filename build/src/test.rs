@@ -8,61 +8,69 @@ use crate::{abuse, bench, describe, package};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
-/// A named step.
-type Step = (&'static str, fn(&Test) -> Result<()>);
+/// Which of the two levels a step belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    /// All of Rust, and the FMU in FMPy: minutes.
+    Always,
+    /// Other tools, masters and platforms.
+    Thorough,
+}
+use Level::{Always, Thorough};
 
-const STEPS: [Step; 15] = [
-    ("prerequisites", |_| prerequisites()),
-    ("format", |_| check(cargo().args(["fmt", "--all", "--check"]))),
-    ("lints", |_| {
+/// A step: its name, when it runs, what it does.
+type Step = (&'static str, Level, fn(&Test) -> Result<()>);
+
+const STEPS: [Step; 16] = [
+    ("prerequisites", Always, prerequisites),
+    ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
+    ("lints", Always, |_| {
         check(cargo().args(["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"]))
     }),
-    ("documentation", |_| {
+    ("documentation", Always, |_| {
         let mut doc = cargo();
         doc.args(["doc", "--package", "ahv-fmu", "--no-deps"]);
         check(doc.env("RUSTDOCFLAGS", "-D warnings"))
     }),
-    ("Rust tests", |_| {
+    ("Rust tests", Always, |_| {
         // The long fuzz has a step of its own.
         check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
     }),
-    ("description", |_| describe::run(&Describe { check: true, file: None })),
-    ("package", |options| {
+    ("description", Always, |_| describe::run(&Describe { check: true, file: None })),
+    ("package", Always, |options| {
         let targets = if options.all_targets { Targets::All } else { Targets::Possible };
         package::build(&package::default_output(), targets)
     }),
-    ("C ABI fuzz", |_| abuse::fuzz()),
-    ("sanitizer", |_| abuse::sanitizer()),
-    ("valgrind", |_| abuse::valgrind()),
-    ("Python lints", |_| python_lints()),
-    ("FMI headers", |_| fmi_headers()),
-    ("FMU tests", |_| python_tests("tests/fmu")),
-    ("bench runs", |_| bench::smoke()),
-    WINDOWS,
+    ("Python lints", Always, |_| python_lints()),
+    ("FMI headers", Always, |_| fmi_headers()),
+    ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
+    ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
+    ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
+    ("sanitizer", Thorough, |_| abuse::sanitizer()),
+    ("valgrind", Thorough, |_| abuse::valgrind()),
+    ("bench runs", Thorough, |_| bench::smoke()),
+    (WINDOWS, Thorough, |options| match missing_for_windows() {
+        None => pytest(&["tests/wine"]),
+        Some(missing) if options.all_targets => bail!("{missing}"),
+        Some(missing) => {
+            println!("left out: {missing}");
+            Ok(())
+        }
+    }),
 ];
 
-/// Runs where there is a Windows to run it on, or if everything is wanted.
-const WINDOWS: Step = ("Windows", |_| {
-    if let Some(missing) = missing_for_windows() {
-        bail!("{missing}");
-    }
-    python_tests("tests/wine")
-});
+const WINDOWS: &str = "Windows";
 
 pub fn run(options: &Test) -> Result<()> {
+    let wanted = |step: &&Step| options.thorough || step.1 == Always;
+    let steps: Vec<_> = STEPS.iter().filter(wanted).collect();
     let mut results = Vec::new();
-    for (number, (name, step)) in STEPS.into_iter().enumerate() {
-        println!("\n[{}/{}] {name}", number + 1, STEPS.len());
+    for (number, (name, _, step)) in steps.iter().enumerate() {
+        println!("\n[{}/{}] {name}", number + 1, steps.len());
         let started = Instant::now();
-        if name == WINDOWS.0
-            && !options.all_targets
-            && let Some(missing) = missing_for_windows()
-        {
-            println!("not run: {missing}");
-            break;
-        }
         let result = step(options);
         if let Err(error) = &result {
             eprintln!("error: {error:#}");
@@ -78,19 +86,24 @@ pub fn run(options: &Test) -> Result<()> {
         let result = if *passed { "passed" } else { "FAILED" };
         println!("  {name:<14} {result} {seconds:8.1} s");
     }
-    for (name, _) in STEPS.iter().skip(results.len()) {
+    for (name, ..) in steps.iter().skip(results.len()) {
         println!("  {name:<14} not run");
     }
     let failed: Vec<_> =
-        results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| *name).collect();
+        results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| **name).collect();
     if !failed.is_empty() {
         bail!("failed: {}", failed.join(", "));
+    }
+    if !options.thorough {
+        println!(
+            "\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough"
+        );
     }
     Ok(())
 }
 
 /// What has to be on the machine, and the Debian package that brings it.
-fn prerequisites() -> Result<()> {
+fn prerequisites(options: &Test) -> Result<()> {
     const NEEDED: [(&str, &[&str], &str); 5] = [
         ("cc", &["--version"], "gcc"),
         (
@@ -100,13 +113,14 @@ fn prerequisites() -> Result<()> {
         ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
-        // Ecos, one of the masters, is linked with it.
+        // Ecos, one of the masters of the thorough tests, is linked with it.
         ("python3", &["-c", "import ctypes; ctypes.CDLL('libtbb.so.12')"], "libtbb12"),
     ];
-    let mut missing: Vec<_> = NEEDED
-        .into_iter()
+    let needed = if options.thorough { NEEDED.len() } else { NEEDED.len() - 1 };
+    let mut missing: Vec<_> = NEEDED[..needed]
+        .iter()
         .filter(|(program, arguments, _)| !works(program, arguments))
-        .map(|(_, _, package)| package)
+        .map(|(_, _, package)| *package)
         .collect();
     missing.dedup();
     if !missing.is_empty() {
@@ -120,12 +134,14 @@ pub fn works(program: &str, arguments: &[&str]) -> bool {
     Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
 }
 
-/// The packaged FMU in other masters, driven from Python.
-fn python_tests(folder: &str) -> Result<()> {
+/// Tests of the packaged FMU in Python, on all processors.
+fn pytest(arguments: &[&str]) -> Result<()> {
+    let workers = thread::available_parallelism().map_or(1, usize::from);
     check(
         Command::new(python()?)
-            .args(["-m", "pytest", "-p", "no:cacheprovider"])
-            .arg(root().join(folder))
+            .args(["-m", "pytest", "-p", "no:cacheprovider", "--quiet"])
+            .args(["--numprocesses", &workers.to_string(), "--dist", "worksteal"])
+            .args(arguments)
             .current_dir(root())
             .env("AHV_FMU", package::default_output()),
     )

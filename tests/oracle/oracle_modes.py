@@ -116,22 +116,24 @@ def lowest(
 
     block = to_decimal(start)
     block = block - free @ (part @ block)
+    load = inertia.times(block)
     for _ in range(ITERATIONS):
-        before = block[:, :count]
-        load = inertia.times(block)
+        before, momentum = block[:, :count], load[:, :count]
         block = held.solve(load)
         block = block - free @ (part @ block)
+        heavy = inertia.times(block)
         # Rayleigh-Ritz on the inverse: largest values first, which favours the wanted modes.
-        gram = (block.T @ inertia.times(block)).astype(float)
-        inverse = (block.T @ load).astype(float)
+        # Doubles are enough to turn the block within what it spans.
+        found = block.astype(float)
+        gram, inverse = found.T @ heavy.astype(float), found.T @ load.astype(float)
         scale = 1.0 / np.sqrt(np.diag(inverse))
-        values, turn = eigh(gram * np.outer(scale, scale), inverse * np.outer(scale, scale))
-        turn = (scale[:, None] * turn / np.sqrt(values))[:, ::-1]
-        block = block @ to_decimal(turn)
+        values, turn = eigh(*((m + m.T) / 2 * np.outer(scale, scale) for m in (gram, inverse)))
+        turn = to_decimal((scale[:, None] * turn / np.sqrt(values))[:, ::-1])
+        block, load = block @ turn, heavy @ turn
         # Converged once no mode turns any more, in the metric of M'.
-        weighted = inertia.times(block[:, :count])
+        weighted = load[:, :count]
         norm = (block[:, :count] * weighted).sum(axis=0)
-        earlier = (before * inertia.times(before)).sum(axis=0)
+        earlier = (before * momentum).sum(axis=0)
         cosine = (weighted * before).sum(axis=0) ** 2 / norm / earlier
         if max(float(abs(1 - entry)) for entry in cosine) < TURN**2:
             break

@@ -193,7 +193,16 @@ class Beam:
         return stiff, Inertia(mass, body, rigid), free
 
     def modes(self, count: int) -> Modes:
-        """The `count` lowest elastic modes, in the order and scaling of the equations."""
+        """The `count` lowest elastic modes; solved once for all vehicles with this structure."""
+        arrays = (self.nodes, self.density, self.stiffness, self.slosh_nodes, *self.points())
+        springs = tuple(tank.stiffness for tank in self.tanks)
+        key = (count, self.wanted, springs, *(np.asarray(array).tobytes() for array in arrays))
+        if key not in _SOLVED:
+            _SOLVED[key] = self._solve(count)
+        return _SOLVED[key]
+
+    def _solve(self, count: int) -> Modes:
+        """Modes in the order and scaling of the equations."""
         _, _, first, slosh = self.matrices()
         size = 2 * len(self.nodes) + len(slosh)
         start = self._start(size, count + GUARD_VECTORS, first, slosh)
@@ -259,3 +268,6 @@ class Modes:
     w: np.ndarray
     slope: np.ndarray
     rel: np.ndarray
+
+
+_SOLVED: dict[tuple, Modes] = {}

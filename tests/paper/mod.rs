@@ -7,7 +7,7 @@ use ahv::dynamics::Vehicle;
 use ahv::linear::Linear;
 use ahv::trim::{Trim, trim};
 use ahv::vehicle::AeroSet::{self, Parker2007};
-use ahv::vehicle::{Build, Configuration};
+use ahv::vehicle::{Body, Build, Configuration};
 use nalgebra::Complex;
 
 /// Pitch inertia, kg m^2/m, with which the published fits give the printed rigid column at 55 ft.
@@ -36,8 +36,9 @@ pub struct Seen {
 
 impl Seen {
     pub fn new(chosen: Chosen) -> Self {
-        let chosen = chosen.sensed_as_printed().expect("the vehicle has a mass centre");
-        let vehicle = Vehicle::chosen(&chosen).expect("the vehicle can be built");
+        let body = Body::new(&chosen).expect("the vehicle has a structure");
+        let chosen = chosen.sensed_as_printed(body.properties.centre_m);
+        let vehicle = Vehicle::with_body(&chosen, &body).expect("the vehicle can be built");
         let trim = trim(&vehicle, &chosen.build.condition).expect("the vehicle has a trim");
         let linear = Linear::sensed(&vehicle, &trim.state, &trim.control);
         Self { vehicle, trim, linear }

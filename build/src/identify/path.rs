@@ -1,5 +1,6 @@
 //! The trade-off between misfit and distance, and its knee.
 
+use super::bodies::Bodies;
 use super::cells::{COLUMNS, Cell, cells, values};
 use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin, hardly_moves};
@@ -32,6 +33,7 @@ pub struct Model {
     pub origin: Origin,
     pub data: Data,
     pub columns: Vec<Build>,
+    pub(super) bodies: Bodies,
 }
 
 /// One point of the trade-off.
@@ -76,13 +78,21 @@ impl Model {
     pub fn new(data: Data) -> Result<Self> {
         let default = Parameters::new(&data).build;
         let columns = COLUMNS.map(|configuration| Build { configuration, ..default }).to_vec();
-        Ok(Self { cells: cells()?, origin: Origin::new()?, data, columns })
+        Ok(Self {
+            cells: cells()?,
+            origin: Origin::new()?,
+            data,
+            columns,
+            bodies: Bodies::default(),
+        })
     }
 
     fn trimmed(&self, set: &AeroData) -> Option<Vec<(Vehicle, Trim)>> {
         let one = |build: &Build| {
-            let chosen = Chosen::with_set(&self.data, build, set).sensed_as_printed().ok()?;
-            let vehicle = unlimited(Vehicle::chosen(&chosen).ok()?);
+            let chosen = Chosen::with_set(&self.data, build, set);
+            let body = self.bodies.of(&chosen).ok()?;
+            let chosen = chosen.sensed_as_printed(body.properties.centre_m);
+            let vehicle = unlimited(Vehicle::with_body(&chosen, &body).ok()?);
             let trim = trim(&vehicle, &build.condition).ok()?;
             Some((vehicle, trim))
         };

@@ -52,9 +52,9 @@ impl Model {
             mass_centre_ft.iter_mut().zip(&mut gamma_ft).zip(&self.columns)
         {
             let chosen = Chosen::with_set(&self.data, build, set);
-            let (beam, oscillators) = chosen.structure()?;
-            *centre = beam.mass_properties(&oscillators).centre_m / FOOT;
-            *gamma = chosen.sensed_as_printed()?.build.stations.imu / FOOT;
+            let centre_m = self.bodies.of(&chosen)?.properties.centre_m;
+            *centre = centre_m / FOOT;
+            *gamma = chosen.sensed_as_printed(centre_m).build.stations.imu / FOOT;
         }
         let of = |fit: &ahv::params::PolynomialData| fit.delta_e.as_ref().map(|slope| slope.value);
         let (Some(lift), Some(moment)) = (of(&set.lift), of(&set.moment)) else {

@@ -2,13 +2,12 @@
 
 use super::roots::{BODY_ROWS, Metric, RIGID_ROWS, Root, name_poles, name_zeros, roots};
 use ahv::assembly::Chosen;
-use ahv::beam::{Beam, Oscillator};
 use ahv::dynamics::{RIGID, Vehicle};
 use ahv::linear::{Linear, OUTPUT_STATES};
-use ahv::modes::{FLEXIBLE, Modes, SLOSH};
+use ahv::modes::{FLEXIBLE, SLOSH};
 use ahv::rigid_body::RigidMotion;
 use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::vehicle::{Body, Build, Data};
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 
@@ -49,20 +48,16 @@ impl Point {
                 build.slosh_damping
             )
         };
-        let chosen = chosen.sensed_as_printed().with_context(failed)?;
-        let vehicle = Vehicle::chosen(&chosen).with_context(failed)?;
+        let body = Body::new(&chosen).with_context(failed)?;
+        let chosen = chosen.sensed_as_printed(body.properties.centre_m);
+        let vehicle = Vehicle::with_body(&chosen, &body).with_context(failed)?;
         let trim = trim(&vehicle, &build.condition).with_context(failed)?;
         let linearise = match gamma {
             Gamma::Printed => Linear::sensed,
             Gamma::MeanAxes => Linear::new,
         };
         let linear = linearise(&vehicle, &trim.state, &trim.control);
-        let (beam, oscillators) = chosen.structure()?;
-        let modes = match build.configuration {
-            Configuration::Rigid => Modes::default(),
-            _ => Modes::solve(&beam, &oscillators)?,
-        };
-        let metric = metric(&vehicle, &trim, &beam, &oscillators, &modes);
+        let metric = metric(&vehicle, &trim, &body);
         let slosh = vehicle.modes.saturating_sub(FLEXIBLE);
         let [poles, zeros] = named_roots(&linear, &metric, slosh, vehicle.modes > 0);
         Ok(Self { vehicle, linear, metric, poles, zeros })
@@ -111,13 +106,8 @@ fn held(c: &DMatrix<f64>) -> DMatrix<f64> {
 /// The kinetic energy of a motion is half the squared length of metric times state. It is that of the
 /// mass matrix in which the modes are orthogonal: the beam's density carries what bends, and mass,
 /// mass centre and inertia of the body ([`ahv::rigid_body`]) its mean translation and rotation.
-fn metric(
-    vehicle: &Vehicle,
-    trim: &Trim,
-    beam: &Beam,
-    oscillators: &[Oscillator],
-    modes: &Modes,
-) -> Metric {
+fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
+    let Body { beam, oscillators, modes, .. } = body;
     let elements = beam.elements();
     let sloshing = oscillators.len().min(SLOSH);
     let bent = RIGID_ROWS + BODY_ROWS;
@@ -126,19 +116,19 @@ fn metric(
     matrix[(0, 0)] = mass;
     matrix[(1, 2)] = mass * trim.state[0];
     matrix[(2, 4)] = vehicle.airframe.inertia.sqrt();
-    let body = RigidMotion::of(beam);
+    let motion = RigidMotion::of(beam);
     // The root of [[mass, first], [first, inertia]].
-    let translation = body.mass.sqrt();
+    let translation = motion.mass.sqrt();
     let coupling = beam.moments.first / translation;
-    let rotation = (body.inertia + beam.moments.second - coupling * coupling).sqrt();
+    let rotation = (motion.inertia + beam.moments.second - coupling * coupling).sqrt();
     for (i, shape) in modes.shape.iter().enumerate() {
         let rate = RIGID + 2 * i + 1;
-        let [moved, turned] = body.part(&shape.w, &shape.slope);
+        let [moved, turned] = motion.part(&shape.w, &shape.slope);
         matrix[(RIGID_ROWS, rate)] = translation * moved + coupling * turned;
         matrix[(RIGID_ROWS + 1, rate)] = rotation * turned;
         for e in 0..elements {
             let station = 0.5 * (beam.station(e) + beam.station(e + 1));
-            let rigidly = moved + turned * (station - body.centre_m);
+            let rigidly = moved + turned * (station - motion.centre_m);
             let middle = 0.5 * (shape.w[e] + shape.w[e + 1]) - rigidly;
             matrix[(bent + e, rate)] = (beam.density[e] * beam.element_m).sqrt() * middle;
         }

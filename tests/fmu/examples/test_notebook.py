@@ -1,6 +1,6 @@
 """The notebook of the examples: it runs, and what a reader sees in it is what this FMU gives.
 
-`python tests/fmu/test_notebook.py` runs it and keeps the new outputs.
+`python tests/fmu/examples/test_notebook.py` runs it and keeps the new outputs.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from nbclient import NotebookClient
 
 from harness import Package
 
-NOTEBOOK = Path(__file__).parents[2] / "examples/from_fmu_to_closed_loop.ipynb"
+NOTEBOOK = Path(__file__).parents[3] / "examples/from_fmu_to_closed_loop.ipynb"
 PATIENCE_S = 300
 NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
 # Of a printed number: half a unit of the last of two decimals, and margins between grid points.

@@ -1,0 +1,62 @@
+//! Bodies by what an identification may move of them: of the numbers of a coefficient set only inertia
+//! and mass centre change the structure, and its modes cost more than all the rest.
+
+use ahv::assembly::Chosen;
+use ahv::error::Error;
+use ahv::params::Inertia;
+use ahv::vehicle::{Body, Configuration};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Enough for a Jacobian: three columns, at a point and a step to either side in two numbers.
+const KEPT: usize = 16;
+
+/// Configuration, and the bits of inertia and mass centre.
+type Key = (Configuration, u64, Option<u64>);
+
+/// The latest bodies. All builds must agree in everything else that shapes a structure.
+#[derive(Default)]
+pub struct Bodies(Mutex<VecDeque<(Key, Arc<Body>)>>);
+
+impl Bodies {
+    /// [`Body::new`], unless it is known.
+    pub fn of(&self, chosen: &Chosen) -> Result<Arc<Body>, Error> {
+        let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &chosen.aero.inertia;
+        let shift = mass_centre_shift_m.as_ref().map(|shift| shift.value.to_bits());
+        let key = (chosen.build.configuration, i_yy_kg_m2_per_m.value.to_bits(), shift);
+        let latest = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, body)) = latest().iter().find(|(known, _)| *known == key) {
+            return Ok(body.clone());
+        }
+        let body = Arc::new(Body::new(chosen)?);
+        let mut latest = latest();
+        latest.truncate(KEPT - 1);
+        latest.push_front((key, body.clone()));
+        Ok(body)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ahv::parameters::Parameters;
+    use ahv::vehicle::Data;
+
+    #[test]
+    fn a_body_is_that_of_its_inertia_and_mass_centre() {
+        let data = Data::embedded().unwrap();
+        let bodies = Bodies::default();
+        let mut chosen = Chosen::new(&data, &Parameters::new(&data).build);
+        for _ in 0..2 * KEPT {
+            let fresh = Body::new(&chosen).unwrap();
+            for _ in 0..2 {
+                let body = bodies.of(&chosen).unwrap();
+                assert_eq!(body.displacements(), fresh.displacements());
+                assert_eq!(body.properties, fresh.properties);
+            }
+            chosen.aero.inertia.i_yy_kg_m2_per_m.value *= 1.001;
+            chosen.aero.inertia.mass_centre_shift_m.as_mut().unwrap().value += 0.01;
+        }
+        assert_eq!(bodies.0.lock().unwrap().len(), KEPT);
+    }
+}
