@@ -6,9 +6,13 @@
 #[path = "../src/params/files.rs"]
 #[allow(dead_code)]
 mod files;
+#[path = "../src/params/quantities.rs"]
+mod quantities;
 #[path = "../src/params/shape.rs"]
 #[allow(dead_code)]
 mod shape;
+#[path = "../src/short.rs"]
+mod short;
 
 use files::{AeroData, EarthData, VehicleData};
 use serde::Serialize;
@@ -48,6 +52,10 @@ fn given(variable: &str) -> Option<PathBuf> {
 fn embed<T: Serialize + DeserializeOwned>(name: &str, file: &Path) {
     println!("cargo::rerun-if-changed={}", file.display());
     let text = fs::read_to_string(file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    let table = text.parse().unwrap_or_else(|e| panic!("{}: {e}", file.display()));
+    if let Some((key, problem)) = quantities::wrong(&table) {
+        panic!("{}: {key}: {problem}", file.display());
+    }
     let data: T = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     let out = Path::new(&env::var_os("OUT_DIR").expect("Cargo says where")).join(name);
     fs::create_dir_all(out.parent().expect("a file has a folder")).expect("the folder is ours");

@@ -1,5 +1,7 @@
 //! What can go wrong, with the variable, the value and the limit.
 
+use crate::short::short;
+
 /// A failure of the model. The text is what a user reads in the log of a simulation master.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -14,7 +16,7 @@ pub enum Error {
         problem: String,
     },
     /// A variable was given a value that it cannot take.
-    #[error("{variable} = {value} is refused: {expected}")]
+    #[error("{variable} = {} is refused: {expected}", short(*value))]
     Value {
         /// Name of the variable.
         variable: String,
@@ -52,8 +54,9 @@ pub enum Error {
     },
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
-        "no trim at mach0 = {mach}, altitude0 = {altitude_m} m, gamma0 = {gamma_rad} rad: {limit} \
-         (largest residual {residual:.3e}); choose another flight condition or set trim = false"
+        "no trim at mach0 = {}, altitude0 = {} m, gamma0 = {} rad: {limit} \
+         (largest residual {residual:.3e}); choose another flight condition or set trim = false",
+        short(*mach), short(*altitude_m), short(*gamma_rad)
     )]
     Trim {
         /// Mach number asked for.
@@ -66,6 +69,18 @@ pub enum Error {
         residual: f64,
         /// The limit that was hit, with the value that broke it.
         limit: String,
+    },
+    /// The equations of motion have no value where the search for a trim starts.
+    #[error(
+        "the vehicle has no finite accelerations at mach0 = {}, altitude0 = {} m: a number of its data, or \
+         one of its factors, is much too large or too small",
+        short(*mach), short(*altitude_m)
+    )]
+    NotFinite {
+        /// Mach number asked for.
+        mach: f64,
+        /// Altitude asked for, m.
+        altitude_m: f64,
     },
     /// The flight reached the edge of the region in which the curve fits hold.
     #[error(

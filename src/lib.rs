@@ -60,6 +60,7 @@ pub mod params;
 pub mod rigid_body;
 pub mod scalar;
 pub mod shock_expansion;
+pub mod short;
 pub mod slosh;
 pub mod trim;
 pub mod variables;

@@ -1,8 +1,8 @@
 //! The numbers of the vehicle, read from `src/data`: each with value, unit, source and status.
 
 mod files;
+mod quantities;
 mod shape;
-mod units;
 mod validate;
 
 pub use files::*;

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::linear::along;
 use crate::modes::MODES;
 use crate::scalar::Dual;
+use crate::short::short;
 use nalgebra::{SMatrix, SVector};
 
 /// Flight condition to be held.
@@ -91,15 +92,19 @@ fn residual(
 ///
 /// # Errors
 /// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
-/// of actuators and curve fits holds the condition.
+/// of actuators and curve fits holds the condition; [`Error::NotFinite`] if the equations have no value.
 pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
     let mut start = condition.start(&vehicle.atmosphere);
     start[FUEL] = vehicle.fuel;
     let mut z = Vector::zeros();
     let mut best = f64::INFINITY;
     let mut solution = z;
-    for _ in 0..MAX_STEPS {
+    for step in 0..MAX_STEPS {
         let (value, jacobian) = residual(vehicle, &start, &z);
+        if step == 0 && !value.iter().all(|rate| rate.is_finite()) {
+            let Condition { mach, altitude: altitude_m, .. } = *condition;
+            return Err(Error::NotFinite { mach, altitude_m });
+        }
         let size = value.amax();
         // At rounding level the residual stops falling: that is as steady as numbers can say.
         if !size.is_finite() || (best < STEADY && size >= best) {
@@ -127,7 +132,7 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
     ];
     let mut hit = conditions.into_iter().find_map(|(name, value, [min, max], unit)| {
         (!(min..=max).contains(&value))
-            .then(|| format!("{name} = {value}{unit} is beyond [{min}, {max}]"))
+            .then(|| format!("{name} = {}{unit} is beyond [{min}, {max}]", short(value)))
     });
     let [elevator, fuel] = vehicle.limits;
     let unknowns = [

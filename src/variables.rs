@@ -12,6 +12,7 @@ pub use table::TABLE;
 use crate::dynamics::{NOMINAL, STATES};
 use crate::error::Error;
 use crate::flight::{Flight, INPUTS};
+use crate::short::short;
 
 /// A unit with the exponents of its base units and, where users think in another one, how to show
 /// it.
@@ -115,7 +116,7 @@ impl Variable {
         if let Some([min, max]) = self.range
             && !(min..=max).contains(&value)
         {
-            return Err(refuse(format!("the range is [{min}, {max}]")));
+            return Err(refuse(format!("the range is [{}, {}]", short(min), short(max))));
         }
         match self.kind {
             Kind::Enumeration(_, items)

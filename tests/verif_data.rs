@@ -1,9 +1,14 @@
 //! The data files: what they must hold, and how a wrong one is refused.
 #![allow(missing_docs)]
 
+use ahv::dynamics::Vehicle;
+use ahv::error::Error;
+use ahv::parameters::Parameters;
 use ahv::params::{
     AeroData, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData, XU2015,
 };
+use ahv::trim::trim;
+use ahv::vehicle::{Build, Configuration, Data};
 
 fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {
     for (key, value) in table {
@@ -58,7 +63,7 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         (
             "length_m = { value = 30.48",
             "length_m = { value = -1.0",
-            "geometry.length_m: -1 must be positive",
+            "geometry.length_m: -1 must lie in [0.001, 1000] m",
         ),
         (
             "fore_body_m = { value = 14.3256",
@@ -68,12 +73,12 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         (
             "propellant_fraction = { value = 0.65",
             "propellant_fraction = { value = 1.65",
-            "mass.propellant_fraction: 1.65 must lie between 0 and 1",
+            "mass.propellant_fraction: 1.65 must lie in [0, 1]",
         ),
         (
             "elements = { value = 500",
             "elements = { value = 3",
-            "beam.elements: 3 must lie in 8..=20000",
+            "beam.elements: 3 must lie in [8, 2000]",
         ),
         ("[0.0, 3.81,", "[0.0, 33.81,", "beam.stiffness_station_m"),
         ("[0.0, 3.81,", "[3.81,", "must run from 0 to 30.48"),
@@ -89,7 +94,7 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
             "beam.stiffness_n_m2_per_m: 10 values for 9 stations",
         ),
         ("centre_m = { value = ", "centre_m = { value = 99", "tank.fore.centre_m"),
-        ("share = { value = 0", "share = { value = 1", "tank.share: the shares add up to 2"),
+        ("share = { value = 0.", "share = { value = 0.9", "tank.share: the shares add up to 1."),
         (
             "unit = \"kg/m^2\"",
             "unit = \"lb/ft^2\"",
@@ -102,7 +107,12 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         ),
         ("status = \"identified\"", "status = \"guessed\"", "unknown variant `guessed`"),
         ("[actuation]", "[actuators]", "unknown field `actuators`"),
-        ("value = 30.48", "value = nan", "must be positive"),
+        (
+            "length_m = { value = 30.48",
+            "length_m = { value = nan",
+            "geometry.length_m: NaN must lie in [0.001, 1000] m",
+        ),
+        ("length_m = {", "width_m3 = {", "geometry.width_m3: there is no such quantity"),
         (
             "nacelle_m = { value = 6.096",
             "nacelle_m = { value = 26.096",
@@ -111,12 +121,84 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
         (
             "nozzle_area_ratio = { value = 6.35",
             "nozzle_area_ratio = { value = 0.5",
-            "engine.nozzle_area_ratio: 0.5 must be 1 or more",
+            "engine.nozzle_area_ratio: 0.5 must lie in [1, 1000]",
         ),
     ] {
         let message = refused(from, to);
         assert!(message.starts_with("mine.toml: ") && message.contains(told), "{message}");
     }
+}
+
+/// Every number of a file, each of a list by itself, in place of another: key and new text.
+fn with_each_number(text: &str, new: &str) -> Vec<(String, String)> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut edited = Vec::new();
+    let mut table = String::new();
+    for (at, line) in lines.iter().enumerate() {
+        if let Some(name) = line.strip_prefix('[') {
+            table = name.trim_matches(['[', ']']).to_string();
+        }
+        if let Some(name) = line.strip_prefix("name = ") {
+            table = format!("tank.{}", name.trim_matches('"'));
+        }
+        let Some((key, rest)) = line.split_once(" = { value = ") else { continue };
+        let (numbers, rest) = rest.split_once(", unit").expect("a number with a unit");
+        let list = numbers.starts_with('[');
+        let numbers: Vec<&str> = numbers.trim_matches(['[', ']']).split(", ").collect();
+        for i in 0..numbers.len() {
+            let mut numbers = numbers.clone();
+            numbers[i] = new;
+            let numbers = numbers.join(", ");
+            let numbers = if list { format!("[{numbers}]") } else { numbers };
+            let mut lines: Vec<String> = lines.iter().map(|line| line.to_string()).collect();
+            lines[at] = format!("{key} = {{ value = {numbers}, unit{rest}");
+            edited.push((format!("{table}.{key}"), lines.join("\n")));
+        }
+    }
+    edited
+}
+
+#[test]
+fn verif_no_number_may_be_absurd() {
+    type Parse = fn(&str) -> Result<(), Error>;
+    let vehicle: Parse = |text| VehicleData::parse("mine.toml", text).map(drop);
+    let earth: Parse = |text| EarthData::parse("mine.toml", text).map(drop);
+    let air: Parse = |text| AeroData::parse("mine.toml", text).map(drop);
+    for (file, parse) in [
+        (VEHICLE, vehicle),
+        (EARTH, earth),
+        (XU2015, air),
+        (PARKER2007, air),
+        (SHOCK_EXPANSION, air),
+    ] {
+        let mut count = 0;
+        for_each_number(&file.text.parse().unwrap(), "", &mut |_, number| {
+            count += number["value"].as_array().map_or(1, Vec::len);
+        });
+        for new in ["nan", "inf", "-inf", "1e30", "-1e30"] {
+            let edited = with_each_number(file.text, new);
+            assert_eq!(edited.len(), count, "{}", file.name);
+            for (key, text) in edited {
+                let value = new.replace("nan", "NaN");
+                let message = parse(&text).expect_err(&key).to_string();
+                let told = format!("mine.toml: {key}: {value} must lie in [");
+                assert!(message.starts_with(&told), "{new}: {message}");
+            }
+        }
+    }
+}
+
+#[test]
+fn verif_a_trim_without_numbers_fails_at_once_and_says_so() {
+    let mut data = Data::embedded().unwrap();
+    data.xu2015.lift.alpha.as_mut().unwrap().value = f64::NAN;
+    let build = Parameters::new(&data).build;
+    let vehicle = Vehicle::new(&data, &Build { configuration: Configuration::Rigid, ..build });
+    let error = trim(&vehicle.unwrap(), &build.condition).unwrap_err();
+    assert!(matches!(error, Error::NotFinite { .. }), "{error}");
+    assert!(
+        error.to_string().contains("no finite accelerations at mach0 = 8, altitude0 = 25900 m")
+    );
 }
 
 #[test]
@@ -149,7 +231,7 @@ fn verif_a_choking_margin_is_a_plain_number_between_minus_one_and_one() {
         assert_eq!(read.value, value.parse().unwrap());
     }
     for (value, unit, told) in [
-        ("-1.5", "1", "envelope.choking_margin: -1.5 must lie in -1.0..=1.0"),
+        ("-1.5", "1", "envelope.choking_margin: -1.5 must lie in [-1, 1]"),
         ("1.01", "1", "envelope.choking_margin: 1.01 must lie in"),
         ("nan", "1", "envelope.choking_margin: NaN must lie in"),
         ("inf", "1", "envelope.choking_margin: inf must lie in"),

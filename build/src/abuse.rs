@@ -59,7 +59,7 @@ fn sanitizer_runtime() -> Option<PathBuf> {
 /// AddressSanitizer and its leak check, in the library and its tests (not in the standard library).
 pub fn sanitizer() -> Result<()> {
     if sanitizer_runtime().is_none() {
-        println!("left out: this toolchain has no AddressSanitizer");
+        note!("left out: this toolchain has no AddressSanitizer");
         return Ok(());
     }
     check(
@@ -78,7 +78,7 @@ pub fn sanitizer() -> Result<()> {
 /// A sample in valgrind: no invalid access, no use of unset memory, nothing lost.
 pub fn valgrind() -> Result<()> {
     if !works("valgrind", &["--version"]) {
-        println!("left out: valgrind is not installed");
+        note!("left out: valgrind is not installed");
         return Ok(());
     }
     let runner = "target.'cfg(all())'.runner = 'valgrind --quiet --error-exitcode=9 \

@@ -16,7 +16,7 @@ mod spread;
 mod start;
 
 use crate::cli::{Bench, BenchPart};
-use crate::workspace::target;
+use crate::workspace::{can_write, target};
 use anyhow::Result;
 use report::Report;
 use std::time::Duration;
@@ -40,20 +40,22 @@ pub fn run(options: &Bench) -> Result<()> {
     if let Some(probe) = options.probe {
         return instructions::probe(probe, options.calls);
     }
+    let directory = options.output.clone().unwrap_or_else(|| target().join("bench"));
+    can_write(&directory.join("bench.json"))?;
     let effort = if options.quick { QUICK } else { FULL };
     let mut report = Report::new()?;
     for (part, name, measure) in PARTS {
         if !options.only.is_empty() && !options.only.contains(&part) {
             continue;
         }
-        eprintln!("{name} ...");
+        note!("{name} ...");
         let lines = measure(&effort, &mut report);
         // What is missing on this machine costs its own part only.
         if let Err(error) = lines {
             report.left_out(name, &error);
         }
     }
-    report.finish(options.output.as_deref())
+    report.finish(&directory)
 }
 
 /// Whether the vehicle's own parts run; what they measure counts for nothing.
@@ -61,7 +63,7 @@ pub fn smoke() -> Result<()> {
     let mut report = Report::new()?;
     precision::measure(&QUICK, &mut report)?;
     ensemble::measure(&QUICK, &mut report)?;
-    report.finish(Some(&target().join("bench/quick")))
+    report.finish(&target().join("bench/quick"))
 }
 
 type Measure = fn(&Effort, &mut Report) -> Result<()>;

@@ -78,11 +78,11 @@ pub struct Package {
     /// Fail if a platform cannot be built for
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
-    /// Build for this machine alone, with its C library: sooner
+    /// Build for this machine alone, with its C library: sooner; written to target/ahv-host.fmu
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
     /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
-    /// darwin64
+    /// darwin64, aarch64-linux, aarch64-windows, aarch64-darwin
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
     #[command(flatten)]
@@ -126,7 +126,7 @@ pub struct Fly {
     /// Fly this FMU instead of building one
     #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
-    /// Build for this machine alone, with its C library: sooner
+    /// Build for this machine alone, with its C library: sooner; flies target/ahv-host.fmu
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,
     #[command(flatten)]

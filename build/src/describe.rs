@@ -24,7 +24,7 @@ pub fn run(options: &Describe) -> Result<()> {
     let expected = xml()?;
     if !options.check {
         write(file, expected)?;
-        println!("{}: {} variables", shown(file), TABLE.len());
+        say!("{}: {} variables", shown(file), TABLE.len())?;
         return Ok(());
     }
     let found = read_text(file, TEXT)?;
@@ -39,7 +39,7 @@ pub fn run(options: &Describe) -> Result<()> {
             expected.lines().nth(line).unwrap_or("(end of file)").trim(),
         );
     }
-    println!("{} is up to date", shown(file));
+    say!("{} is up to date", shown(file))?;
     Ok(())
 }
 

@@ -50,21 +50,23 @@ pub fn run(options: &Fit) -> Result<()> {
         published: AeroData::embedded(&PARKER2007)?,
     };
     let result = regress(&inputs)?;
-    print!("{}", table(&result.rows));
-    let text = text(&inputs, &result)?;
+    let (text, compared) = text(&inputs, &result)?;
     if !options.check {
-        write(&file, text)?;
-        println!("{} is written", shown(&file));
-    } else if read_text(&file, DATA)? != text {
+        write(&file, &text)?;
+    }
+    put!("{}", table(&result.rows))?;
+    put!("\nStrips against panels, elastic terms\n{}", table(&compared))?;
+    if !options.check {
+        return say!("{} is written", shown(&file));
+    }
+    if read_text(&file, DATA)? != text {
         bail!(
             "{} is not what the model says; run `cargo ahv fit`, then `cargo ahv describe`, and \
              commit the results",
             shown(&file)
         );
-    } else {
-        println!("{} is up to date", shown(&file));
     }
-    Ok(())
+    say!("{} is up to date", shown(&file))
 }
 
 fn regress(inputs: &Inputs) -> Result<Fitted> {
@@ -125,9 +127,9 @@ fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
     line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
 }
 
-/// The data file. Incidence and elevator of the elastic derivatives are those of trimmed flight,
-/// which does not depend on them.
-fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
+/// The data file, and how good its elastic terms are. Incidence and elevator of the elastic derivatives
+/// are those of trimmed flight, which does not depend on them.
+fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> {
     let first = with_fit(inputs, &file(inputs, result, [0.0; 2], &[])?)?;
     let build = build(&first, Configuration::Rigid);
     let trimmed = trim(&Vehicle::new(&first, &build)?, &build.condition)?;
@@ -137,8 +139,7 @@ fn text(inputs: &Inputs, result: &Fitted) -> Result<String> {
     let elastic = [attitude.alpha, delta_e];
     let second = with_fit(inputs, &file(inputs, result, elastic, &[])?)?;
     let rows = compare(&second, &attitude)?;
-    print!("\nStrips against panels, elastic terms\n{}", table(&rows));
-    file(inputs, result, elastic, &rows)
+    Ok((file(inputs, result, elastic, &rows)?, rows))
 }
 
 /// The embedded data with another fit.

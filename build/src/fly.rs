@@ -10,8 +10,9 @@ use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
-use crate::workspace::{Files, root, shown, target, write_together};
+use crate::workspace::{Files, can_write, root, shown, target, write_together};
 use crate::{package, pilot, plot};
+use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
@@ -22,6 +23,8 @@ pub fn run(options: &Fly) -> Result<()> {
         None => package::fresh(Targets::Possible)?,
     };
     let fmu = Fmu::open(&file)?;
+    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
+    can_write(&directory.join("flight.csv"))?;
     let model = &fmu.model;
     let default = &model.experiment;
     let step = positive("--step", options.step.or(default.step_size))?;
@@ -33,7 +36,7 @@ pub fn run(options: &Fly) -> Result<()> {
     let manoeuvre = Manoeuvre::read(&input, model)?;
     let points = pilot::communication_points(step, stop, manoeuvre.times())?;
     for hint in hints(&manoeuvre, &shown(&input), stop) {
-        eprintln!("hint: {hint}");
+        note!("hint: {hint}");
     }
 
     let mut instance = Instance::new(&fmu)?;
@@ -50,28 +53,27 @@ pub fn run(options: &Fly) -> Result<()> {
         instance.terminate()?;
     }
 
-    println!("FMU          {}", shown(&file));
-    println!("inputs       {}", shown(&input));
-    println!("experiment   {stop} s in steps of {step} s, tolerance {tolerance:e}");
-    println!("set          {}", set_summary(&settings));
-    println!("\nCalculated at initialisation");
-    print!("{}", table(&calculated));
-    println!("\nLargest deviations from the start");
-    print!("{}", deviations(model, &flown.record));
-    print_messages(&instance);
-
-    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     let csv = directory.join("flight.csv");
     let title = title(model, &settings, &input);
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
     files.extend(plot::figures(&flown.record, &title, &directory)?);
     write_together(&files)?;
-    println!();
+    say!("FMU          {}", shown(&file))?;
+    say!("inputs       {}", shown(&input))?;
+    let [duration, steps] = [stop, step].map(short);
+    say!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
+    say!("set          {}", set_summary(&settings))?;
+    say!("\nCalculated at initialisation")?;
+    put!("{}", table(&calculated))?;
+    say!("\nLargest deviations from the start")?;
+    put!("{}", deviations(model, &flown.record))?;
+    print_messages(&instance)?;
+    say!("")?;
     for file in files.keys() {
-        println!("wrote        {}", shown(file));
+        say!("wrote        {}", shown(file))?;
     }
     let end = flown.record.rows.last().map_or(0.0, |row| row[0]);
-    println!("speed        {:.0} times real time", end / flown.spent.as_secs_f64());
+    say!("speed        {:.0} times real time", end / flown.spent.as_secs_f64())?;
     match flown.discarded {
         None => Ok(()),
         Some(reason) => bail!("the flight ended at {} s of {stop} s: {reason}", number(end)),
@@ -81,7 +83,7 @@ pub fn run(options: &Fly) -> Result<()> {
 pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     match value {
         Some(value) if value.is_finite() && value > 0.0 => Ok(value),
-        Some(value) => bail!("{option} {value}: a finite number above zero is expected"),
+        Some(value) => bail!("{option} {}: a finite number above zero is expected", short(value)),
         None => bail!("{option} is needed: the FMU has no default"),
     }
 }
@@ -145,12 +147,13 @@ fn deviations(model: &ModelDescription, record: &Record) -> String {
     table(&rows)
 }
 
-fn print_messages(instance: &Instance) {
+fn print_messages(instance: &Instance) -> Result<()> {
     let messages = instance.messages();
     if !messages.is_empty() {
-        println!("\nMessages of the FMU");
+        say!("\nMessages of the FMU")?;
     }
     for message in messages {
-        println!("  {} ({}): {}", status_name(message.status), message.category, message.text);
+        say!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
     }
+    Ok(())
 }

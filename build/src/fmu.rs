@@ -1,8 +1,8 @@
 //! An FMU as a file: unzipped, with its description read.
 
 use crate::model_description::ModelDescription;
-use crate::package::HOST;
-use crate::workspace::{BINARY, read, read_text, shown, write};
+use crate::package::{Binary, host};
+use crate::workspace::{BINARY, read, shown, write};
 use anyhow::{Context, Result, bail};
 use std::io::{Cursor, Read};
 use std::path::{Component, Path, PathBuf};
@@ -36,22 +36,31 @@ impl Fmu {
         if !xml.exists() {
             bail!("{name} is not an FMU: it has no modelDescription.xml");
         }
-        let xml = read_text(&xml, DESCRIPTION).with_context(|| name.clone())?;
+        let xml = read(&xml, DESCRIPTION).with_context(|| name.clone())?;
+        let Ok(xml) = String::from_utf8(xml) else {
+            bail!("{name}: modelDescription.xml is not a text in UTF-8");
+        };
         let model = ModelDescription::parse(&xml).with_context(|| name.clone())?;
-        let Some(co_simulation) =
-            model.co_simulation.as_ref().filter(|_| model.fmi_version == "2.0")
-        else {
-            bail!("{name}: FMI {}; an FMU for FMI 2.0 co-simulation is needed", model.fmi_version);
+        if model.fmi_version != "2.0" {
+            bail!("{name} is for FMI {}; one for FMI 2.0 is needed", model.fmi_version);
+        }
+        let Some(co_simulation) = &model.co_simulation else {
+            bail!("{name} is not for co-simulation, which is needed");
         };
         let identifier = &co_simulation.model_identifier;
         if !is_c_name(identifier) {
             bail!("{name}: the modelIdentifier {identifier:?} is not the name of a C function");
         }
-        let binary = format!("binaries/{}/{identifier}.{}", HOST.name, HOST.ending);
+        let host = host()?;
+        let binary = format!("binaries/{}/{identifier}.{}", host.name, host.ending);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is not in it");
         }
+        // What only looks like a library may end the process that loads it.
+        Binary::parse(&read(&path, BINARY)?)
+            .and_then(|found| found.is_for(host))
+            .with_context(|| format!("{name}: {binary}"))?;
         Ok(Self { directory, binary: path, model })
     }
 

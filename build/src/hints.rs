@@ -1,6 +1,7 @@
 //! What is legal and probably not meant.
 
 use crate::manoeuvre::Manoeuvre;
+use ahv::short::short;
 
 /// A line for each; `file` is the manoeuvre's, `stop` the end of the flight, s.
 pub fn hints(manoeuvre: &Manoeuvre, file: &str, stop: f64) -> Vec<String> {
@@ -17,24 +18,25 @@ pub fn hints(manoeuvre: &Manoeuvre, file: &str, stop: f64) -> Vec<String> {
         hints.push(format!("{file} has no row below the header: all inputs stay zero"));
         return hints;
     };
-    let (from, to) = (first.time, last.time);
-    if from >= stop {
+    let (start, end) = (first.time, last.time);
+    let [from, to, until] = [start, end, stop].map(short);
+    if start >= stop {
         hints.push(format!(
-            "{file} starts at {from} s, after the end of the flight at {stop} s: its first values \
+            "{file} starts at {from} s, after the end of the flight at {until} s: its first values \
              hold all the time; fly longer with --stop"
         ));
-    } else if from > 0.0 && first.values.iter().any(|value| *value != 0.0) {
+    } else if start > 0.0 && first.values.iter().any(|value| *value != 0.0) {
         hints.push(format!(
             "{file} starts at {from} s: its first values hold from 0 s on; for others put a row \
              there"
         ));
     }
-    if from < stop && to > stop {
+    if start < stop && end > stop {
         hints.push(format!(
-            "{file} goes on to {to} s, the flight ends at {stop} s; fly longer with --stop"
+            "{file} goes on to {to} s, the flight ends at {until} s; fly longer with --stop"
         ));
     }
-    if to < 0.0 {
+    if end < 0.0 {
         hints.push(format!("{file} ends at {to} s, before the flight: its last values hold"));
     }
     hints

@@ -47,35 +47,37 @@ fn beam(options: &Identify) -> Result<()> {
     let report = beam::Report::new(&model, &solution)?;
     let text = beam::file(&before, &solution.vehicle, &report.known())?;
     VehicleData::parse("vehicle.toml", &text)?;
+    let settled = settle(options, "beam", VEHICLE, &text);
     if options.json {
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say!("{}", serde_json::to_string_pretty(&report)?)?;
     } else if !options.check {
-        print!("{}", report.text());
+        put!("{}", report.text())?;
     }
-    settle(options, "beam", VEHICLE, &text)
+    settled
 }
 
 fn xu2015(options: &Identify) -> Result<()> {
     let model = path::Model::new(data()?)?;
     let chosen = model.chosen()?;
     let text = model.origin.file(&chosen.fit.point)?;
+    let settled = settle(options, "xu2015", XU2015, &text);
     if options.json || !options.check {
         let (path, knee) = model.path(&|_| ())?;
         let best = model.best(&chosen)?;
         let report = Report::new(&model, &path, knee, [&chosen, &best])?;
         if options.json {
-            println!("{:#}", report.json());
+            say!("{:#}", report.json())?;
         } else {
-            print!("{}", report.text()?);
+            put!("{}", report.text()?)?;
         }
     }
-    settle(options, "xu2015", XU2015, &text)
+    settled
 }
 
 /// Writes a file of the repository, or compares it with what would be written.
 fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
     let file = root().join(name);
-    let tell = |done: &str| eprintln!("{} {done}", shown(&file));
+    let tell = |done: &str| note!("{} {done}", shown(&file));
     if !options.check {
         write(&file, text)?;
         tell("is written");

@@ -1,5 +1,8 @@
 //! `cargo ahv`: describes, packages, flies and tests the ahv FMU.
 
+#[macro_use]
+mod say;
+
 mod abuse;
 mod bench;
 mod cli;
@@ -37,47 +40,49 @@ mod trim;
 mod workspace;
 mod xml;
 
+use anyhow::Result;
 use clap::Parser;
 use cli::{Cli, Command};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    // A reader that has seen enough, `cargo ahv poles | head`, is no failure.
-    let report = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |panic| {
-        if panic.to_string().contains("Broken pipe") {
-            std::process::exit(0);
-        }
-        report(panic);
-    }));
-    let command = Cli::parse().command;
-    match workspace::locate().and_then(|()| own::run(&command)) {
-        Ok(None) => {}
-        Ok(Some(code)) => return code,
-        Err(error) => return failed(&error),
-    }
-    let result = match command {
-        Command::Describe(options) => describe::run(&options),
-        Command::Package(options) => package::run(&options),
-        Command::Fit(options) => fit::run(&options),
-        Command::Fly(options) => fly::run(&options),
-        Command::Modes(options) => modes::run(&options),
-        Command::Trim(options) => trim::run(&options),
-        Command::Poles(options) => poles::run(&options),
-        Command::Reproduce(options) => reproduce::run(&options),
-        Command::Bench(options) => bench::run(&options),
-        Command::Methods(options) => methods::run(&options),
-        Command::Identify(options) => identify::run(&options),
-        Command::Test(options) => test::run(&options),
+    let done = match Cli::try_parse() {
+        Ok(Cli { command }) => run(&command),
+        // Help, or what is wrong with the arguments.
+        Err(told) => told.print().map_err(say::refused).map(|()| code(told.exit_code())),
     };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => failed(&error),
+    match done.and_then(|code| say::flush().map(|()| code)) {
+        Ok(code) => code,
+        Err(error) if error.is::<say::Closed>() => ExitCode::SUCCESS,
+        Err(error) => {
+            note!("error: {}", say::causes(&error));
+            ExitCode::FAILURE
+        }
     }
 }
 
-fn failed(error: &anyhow::Error) -> ExitCode {
-    // `{:#}` puts the causes on the same line: what failed, then why.
-    eprintln!("error: {error:#}");
-    ExitCode::FAILURE
+fn run(command: &Command) -> Result<ExitCode> {
+    workspace::locate()?;
+    if let Some(code) = own::run(command)? {
+        return Ok(code);
+    }
+    match command {
+        Command::Describe(options) => describe::run(options),
+        Command::Package(options) => package::run(options),
+        Command::Fit(options) => fit::run(options),
+        Command::Fly(options) => fly::run(options),
+        Command::Modes(options) => modes::run(options),
+        Command::Trim(options) => trim::run(options),
+        Command::Poles(options) => poles::run(options),
+        Command::Reproduce(options) => reproduce::run(options),
+        Command::Bench(options) => bench::run(options),
+        Command::Methods(options) => methods::run(options),
+        Command::Identify(options) => identify::run(options),
+        Command::Test(options) => test::run(options),
+    }?;
+    Ok(ExitCode::SUCCESS)
+}
+
+fn code(number: i32) -> ExitCode {
+    u8::try_from(number).map_or(ExitCode::FAILURE, ExitCode::from)
 }

@@ -148,8 +148,8 @@ pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, trim) = ready(&flight)?;
     let mut exponential = method(vehicle, trim);
-    println!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state");
-    println!("over its nominal value plus its size\n");
+    say!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state")?;
+    say!("over its nominal value plus its size\n")?;
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
             let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
@@ -166,7 +166,7 @@ pub fn run(options: &Compare) -> Result<()> {
                 ]);
             }
             let step = FLIGHT_S / steps as f64;
-            println!("From {start}, communication step {step} s\n{}", table(&rows));
+            say!("From {start}, communication step {step} s\n{}", table(&rows))?;
         }
     }
     Ok(())

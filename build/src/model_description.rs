@@ -1,6 +1,6 @@
 //! Reads modelDescription.xml: all that a master may know of an FMU.
 
-use anyhow::{Context, Result};
+use anyhow::{Result, anyhow};
 use serde::Deserialize;
 
 #[derive(Debug, Deserialize)]
@@ -158,7 +158,11 @@ pub struct Enumeration {
 
 impl ModelDescription {
     pub fn parse(xml: &str) -> Result<Self> {
-        quick_xml::de::from_str(xml).context("modelDescription.xml cannot be read")
+        quick_xml::de::from_str(xml).map_err(|error| {
+            // The reason may quote the whole text.
+            let reason: String = error.to_string().chars().take(200).collect();
+            anyhow!("modelDescription.xml cannot be read: {reason}")
+        })
     }
 
     pub fn variables(&self) -> &[Variable] {

@@ -64,7 +64,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         }
     };
     if *elements {
-        println!("{}", solved_elements(&flight.parameters().build)?);
+        say!("{}", solved_elements(&flight.parameters().build)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;
@@ -87,12 +87,12 @@ pub fn run(options: &cli::Modes) -> Result<()> {
                 })
             })
             .collect();
-        println!("{:#}", json!({ "configuration": configuration(&flight), "modes": list }));
+        say!("{:#}", json!({ "configuration": configuration(&flight), "modes": list }))?;
         return Ok(());
     }
-    println!("Modes, {}", configuration(&flight));
+    say!("Modes, {}", configuration(&flight))?;
     if count == 0 {
-        println!("  none: the vehicle is rigid");
+        say!("  none: the vehicle is rigid")?;
         return Ok(());
     }
     let mut rows = vec![row([
@@ -112,15 +112,15 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         cells.push(format!("{:.2} %", 100.0 * modes.beam_energy_share[i]));
         rows.push(cells);
     }
-    print!("{}", table(&rows));
-    println!("  slosh: displacement of the sloshing mass against its tank per unit of the mode");
-    println!("  beam energy: share of the strain energy in the beam; the rest is in the springs");
-    println!("\nDamping matrix, 1/s");
+    put!("{}", table(&rows))?;
+    say!("  slosh: displacement of the sloshing mass against its tank per unit of the mode")?;
+    say!("  beam energy: share of the strain energy in the beam; the rest is in the springs")?;
+    say!("\nDamping matrix, 1/s")?;
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {
         let cells = damping(i).into_iter().map(number);
         rows.push(std::iter::once(name(i)).chain(cells).collect());
     }
-    print!("{}", table(&rows));
+    put!("{}", table(&rows))?;
     Ok(())
 }

@@ -64,7 +64,7 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
             command.env(name, check(file)?);
         }
     }
-    eprintln!("building with your data; the first time takes some minutes");
+    note!("building with your data; the first time takes some minutes");
     let status = command.status().context("cannot start cargo")?;
     Ok(Some(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
 }

@@ -13,11 +13,11 @@ mod windows;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{BINARY, read, shown, target, write};
-use crate::{documentation, licenses};
-use anyhow::{Result, bail};
-use binary::Binary;
-pub use platform::HOST;
+use crate::workspace::{BINARY, can_write, read, shown, target, write};
+use crate::{documentation, licenses, say};
+use anyhow::{Context, Result, bail};
+pub use binary::Binary;
+pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -35,26 +35,38 @@ pub enum Targets {
     All,
 }
 
+/// A library that has been looked into.
+struct Library {
+    platform: Platform,
+    content: Vec<u8>,
+    binary: Binary,
+}
+
 /// Libraries for an FMU.
 #[derive(Default)]
 struct Libraries {
-    found: Vec<(Platform, PathBuf)>,
+    found: Vec<Library>,
     /// What could not be built as it should be, why, and what to do.
     missing: Vec<String>,
 }
 
 pub fn run(options: &Package) -> Result<()> {
-    let output = options.output.clone().unwrap_or_else(default_output);
+    let targets = match (options.host_only, options.all_targets) {
+        (true, _) => Targets::Host,
+        (_, true) => Targets::All,
+        _ => Targets::Possible,
+    };
+    let output = options.output.clone().unwrap_or_else(|| default_output(targets));
+    can_write(&output)?;
     if options.library.is_empty() {
-        let targets = match (options.host_only, options.all_targets) {
-            (true, _) => Targets::Host,
-            (_, true) => Targets::All,
-            _ => Targets::Possible,
-        };
         return build(&output, targets);
     }
     let given = options.library.iter().map(|text| platform::given(text));
-    write_fmu(contents(&given.collect::<Result<Vec<_>>>()?)?, &output)
+    let mut libraries = Libraries::default();
+    for library in given {
+        libraries.add(library?)?;
+    }
+    package(libraries, &output)
 }
 
 /// Builds and packages.
@@ -66,24 +78,31 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
     if targets == Targets::All && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
+    package(libraries, output)
+}
+
+/// Writes an FMU and says what it is and needs.
+fn package(libraries: Libraries, output: &Path) -> Result<()> {
     let mut files = contents(&libraries.found)?;
-    files.extend(reference(&files)?);
+    let host = host()?;
+    if libraries.found.iter().any(|library| library.platform == host) {
+        files.extend(reference(&files)?);
+    }
     write_fmu(files, output)?;
-    for (platform, library) in &libraries.found {
-        let binary = Binary::parse(&read(library, BINARY)?)?;
+    for Library { platform, binary, .. } in &libraries.found {
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
-        println!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "));
+        say!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "))?;
     }
     for text in libraries.missing {
-        println!("  {text}");
+        say!("  {text}")?;
     }
     Ok(())
 }
 
 /// The FMU at its usual place, built anew.
 pub fn fresh(targets: Targets) -> Result<PathBuf> {
-    let output = default_output();
+    let output = default_output(targets);
     build(&output, targets)?;
     Ok(output)
 }
@@ -93,52 +112,67 @@ pub fn can_build_for_windows() -> Result<()> {
     windows::toolchain().map(drop)
 }
 
-/// Where the FMU goes if nothing else is said.
-pub fn default_output() -> PathBuf {
-    target().join(MODEL_IDENTIFIER).with_extension("fmu")
+/// Where the FMU goes if nothing else is said. One for this machine alone does not replace one for all.
+pub fn default_output(targets: Targets) -> PathBuf {
+    let kind = if targets == Targets::Host { "-host" } else { "" };
+    target().join(format!("{MODEL_IDENTIFIER}{kind}.fmu"))
 }
 
 impl Libraries {
+    /// Looks into a library and takes it if it is one for its platform.
+    fn add(&mut self, (platform, file): (Platform, PathBuf)) -> Result<&Binary> {
+        if self.found.iter().any(|known| known.platform == platform) {
+            bail!("there are two libraries for {}", platform.name);
+        }
+        let content = read(&file, BINARY)?;
+        let binary = Binary::parse(&content).with_context(|| shown(&file))?;
+        binary.check(platform).with_context(|| shown(&file))?;
+        self.found.push(Library { platform, content, binary });
+        Ok(&self.found[self.found.len() - 1].binary)
+    }
+
     /// Compiles for this machine as Cargo does.
     fn host() -> Result<Self> {
-        Ok(Self { found: vec![(HOST, library::for_host()?)], missing: Vec::new() })
+        let mut libraries = Self::default();
+        libraries.add((host()?, library::for_host()?))?;
+        Ok(libraries)
     }
 
     /// Compiles for all platforms that this machine can compile for.
     fn build() -> Result<Self> {
         let mut libraries = Self::default();
-        if HOST != LINUX {
+        let host = host()?;
+        if host != LINUX {
             libraries = Self::host()?;
             libraries.missing.push(format!(
-                "only {} is in it: the FMU for Linux and Windows is built on Linux",
-                HOST.name
+                "only {} is in it: the FMU for Linux and Windows is built on Linux (x86-64)",
+                host.name
             ));
             return Ok(libraries);
         }
         match library::zig() {
             Ok(zig) => {
                 let library = library::for_linux(&zig)?;
-                Binary::parse(&read(&library, BINARY)?)?.check(LINUX)?;
-                libraries.found.push((LINUX, library));
+                libraries.add((LINUX, library))?.check_everywhere(LINUX)?;
             }
             Err(error) => {
                 let library = library::for_host()?;
-                let glibc = Binary::parse(&read(&library, BINARY)?)?.glibc.unwrap_or_default();
+                let glibc = libraries.add((LINUX, library))?.glibc.unwrap_or_default();
                 libraries.missing.push(format!(
                     "linux64 is for machines like this one: it needs glibc {}.{}. For glibc 2.17 \
-                     the linker of zig is needed: {error:#}",
-                    glibc.0, glibc.1
+                     the linker of zig is needed: {}",
+                    glibc.0,
+                    glibc.1,
+                    say::causes(&error)
                 ));
-                libraries.found.push((LINUX, library));
             }
         }
         match windows::toolchain() {
             Ok(toolchain) => {
                 let library = library::for_windows(toolchain)?;
-                Binary::parse(&read(&library, BINARY)?)?.check(WINDOWS)?;
-                libraries.found.push((WINDOWS, library));
+                libraries.add((WINDOWS, library))?.check_everywhere(WINDOWS)?;
             }
-            Err(error) => libraries.missing.push(format!("{error:#}")),
+            Err(error) => libraries.missing.push(say::causes(&error)),
         }
         Ok(libraries)
     }
@@ -147,7 +181,7 @@ impl Libraries {
 /// Files of the FMU by their names.
 type Files = BTreeMap<String, Vec<u8>>;
 
-fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
+fn contents(libraries: &[Library]) -> Result<Files> {
     let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.extend(licenses::collect()?);
@@ -155,12 +189,10 @@ fn contents(libraries: &[(Platform, PathBuf)]) -> Result<Files> {
     files.extend(terminals::files(&picture)?);
     files.insert("model.png".to_string(), picture);
     let mut machines = Vec::new();
-    for (platform, library) in libraries {
+    for Library { platform, content, binary } in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
-        let library = read(library, BINARY)?;
-        let glibc = Binary::parse(&library).ok().and_then(|binary| binary.glibc);
-        machines.push(platform.machines(glibc));
-        files.insert(name, library);
+        machines.push(platform.machines(binary.glibc));
+        files.insert(name, content.clone());
     }
     let page = documentation::html(&machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
@@ -184,8 +216,8 @@ fn write_fmu(files: Files, output: &Path) -> Result<()> {
     write(output, &bytes)?;
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
-    println!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "));
+    say!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
     let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    println!("  sha256 {digest}");
+    say!("  sha256 {digest}")?;
     Ok(())
 }

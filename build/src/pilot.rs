@@ -4,6 +4,7 @@ use crate::manoeuvre::Manoeuvre;
 use crate::master::{Instance, Step};
 use crate::model_description::Variable;
 use crate::record::Record;
+use ahv::short::short;
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 
@@ -92,8 +93,10 @@ pub fn communication_points(
 ) -> Result<Vec<f64>> {
     if stop / step > MAX_STEPS as f64 {
         bail!(
-            "--step {step} s makes {:.0e} steps in {stop} s; the record holds {:.0e}",
+            "--step {} s makes {:.0e} steps in {} s; the record holds {:.0e}",
+            short(step),
             stop / step,
+            short(stop),
             MAX_STEPS as f64
         );
     }
@@ -136,6 +139,9 @@ mod tests {
         assert_eq!(points(0.01, 2.0, &[])[34], 0.35);
         assert_eq!(points(1.0, 0.5, &[]), [0.5]);
         let error = communication_points(1e-7, 1.0, std::iter::empty()).unwrap_err();
-        assert!(error.to_string().starts_with("--step 0.0000001 s makes 1e7 steps"), "{error}");
+        assert!(
+            error.to_string().contains("s makes 1e7 steps in 1 s; the record holds 1e6"),
+            "{error}"
+        );
     }
 }

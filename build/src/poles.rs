@@ -47,11 +47,11 @@ pub fn run(options: &Poles) -> Result<()> {
     let all = if options.all { linearise_all(options)? } else { vec![linearise(options, None)?] };
     if options.analyse.json {
         let values: Vec<Value> = all.iter().map(as_json).collect();
-        println!("{:#}", Value::from(values));
+        say!("{:#}", Value::from(values))?;
     } else if let [one] = all.as_slice() {
-        print_one(one);
+        print_one(one)?;
     } else {
-        print_side_by_side(&all);
+        print_side_by_side(&all)?;
     }
     Ok(())
 }
@@ -130,8 +130,8 @@ fn doubling(root: Root) -> String {
     }
 }
 
-fn print_one(linearised: &Linearised) {
-    println!("Poles, {}, rad/s", linearised.configuration);
+fn print_one(linearised: &Linearised) -> Result<()> {
+    say!("Poles, {}, rad/s", linearised.configuration)?;
     let mut rows = vec![row(["mode", "pole", "frequency", "damping ratio", "amplitude, s"])];
     for (name, root) in &linearised.poles {
         rows.push(vec![
@@ -142,25 +142,26 @@ fn print_one(linearised: &Linearised) {
             doubling(*root),
         ]);
     }
-    print!("{}", table(&rows));
+    put!("{}", table(&rows))?;
     for (angle, zeros) in ANGLES.into_iter().zip(&linearised.zeros) {
-        println!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s");
+        say!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
         let mut rows = vec![row(["", "zero", "frequency"])];
         for (index, root) in zeros.iter().enumerate() {
             rows.push(vec![(index + 1).to_string(), root.text(), number(root.frequency())]);
         }
-        print!("{}", table(&rows));
+        put!("{}", table(&rows))?;
     }
+    Ok(())
 }
 
-fn print_side_by_side(all: &[Linearised]) {
+fn print_side_by_side(all: &[Linearised]) -> Result<()> {
     let head = |title: &str| {
         let names = all.iter().map(|one| one.configuration.clone());
         std::iter::once(title.to_string()).chain(names).collect::<Vec<_>>()
     };
     // The configuration with most poles names the rows; a name may stand twice (two real poles of
     // one mode), so the n-th of a name stands beside the n-th.
-    let Some(longest) = all.iter().max_by_key(|one| one.poles.len()) else { return };
+    let Some(longest) = all.iter().max_by_key(|one| one.poles.len()) else { return Ok(()) };
     let mut names: Vec<&String> = longest.poles.iter().map(|(name, _)| name).collect();
     for one in all {
         for (name, _) in &one.poles {
@@ -171,7 +172,7 @@ fn print_side_by_side(all: &[Linearised]) {
             }
         }
     }
-    println!("Poles, rad/s");
+    say!("Poles, rad/s")?;
     let mut rows = vec![head("mode")];
     for (index, name) in names.iter().enumerate() {
         let before = names[..index].iter().filter(|other| *other == name).count();
@@ -181,9 +182,9 @@ fn print_side_by_side(all: &[Linearised]) {
         };
         rows.push(std::iter::once(name.to_string()).chain(all.iter().map(cell)).collect());
     }
-    print!("{}", table(&rows));
+    put!("{}", table(&rows))?;
     for (output, angle) in ANGLES.into_iter().enumerate() {
-        println!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s");
+        say!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
         let mut rows = vec![head("")];
         let count = all.iter().map(|one| one.zeros[output].len()).max().unwrap_or(0);
         for index in 0..count {
@@ -194,8 +195,9 @@ fn print_side_by_side(all: &[Linearised]) {
                 std::iter::once((index + 1).to_string()).chain(all.iter().map(cell)).collect(),
             );
         }
-        print!("{}", table(&rows));
+        put!("{}", table(&rows))?;
     }
+    Ok(())
 }
 
 fn as_json(linearised: &Linearised) -> Value {

@@ -24,7 +24,7 @@ pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
     if stamp.exists() && python.exists() && read(&stamp, TEXT)? == wanted {
         return Ok(Environment { programs, python });
     }
-    eprintln!("making {} from {}", shown(&directory), shown(lock));
+    note!("making {} from {}", shown(&directory), shown(lock));
     check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))
         .context("a virtual environment needs Python; on Debian: apt-get install python3-venv")?;
     check(

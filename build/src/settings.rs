@@ -1,6 +1,7 @@
 //! Parameters given as `name=value`, checked against what the FMU says of itself.
 
 use crate::model_description::{Causality, Kind, ModelDescription, Real, Variable};
+use ahv::short::short;
 use anyhow::{Result, bail};
 
 /// A parameter and its new value; Booleans as 0 and 1, enumerations as their number.
@@ -104,7 +105,7 @@ fn real_number(
     let (min, max) = (real.min.unwrap_or(f64::MIN), real.max.unwrap_or(f64::MAX));
     if !(min..=max).contains(&value) {
         let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
-        return Err(format!("the range is [{min}, {max}]{unit}"));
+        return Err(format!("the range is [{}, {}]{unit}", short(min), short(max)));
     }
     Ok(value)
 }

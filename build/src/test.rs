@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
-use crate::{abuse, bench, describe, package};
+use crate::{abuse, bench, describe, package, say};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
@@ -42,7 +42,7 @@ const STEPS: [Step; 16] = [
     ("description", Always, |_| describe::run(&Describe { check: true, file: None })),
     ("package", Always, |options| {
         let targets = if options.all_targets { Targets::All } else { Targets::Possible };
-        package::build(&package::default_output(), targets)
+        package::build(&package::default_output(Targets::Possible), targets)
     }),
     ("Python lints", Always, |_| python_lints()),
     ("FMI headers", Always, |_| fmi_headers()),
@@ -56,7 +56,7 @@ const STEPS: [Step; 16] = [
         None => pytest(&["tests/wine"]),
         Some(missing) if options.all_targets => bail!("{missing}"),
         Some(missing) => {
-            println!("left out: {missing}");
+            note!("left out: {missing}");
             Ok(())
         }
     }),
@@ -69,11 +69,11 @@ pub fn run(options: &Test) -> Result<()> {
     let steps: Vec<_> = STEPS.iter().filter(wanted).collect();
     let mut results = Vec::new();
     for (number, (name, _, step)) in steps.iter().enumerate() {
-        println!("\n[{}/{}] {name}", number + 1, steps.len());
+        note!("\n[{}/{}] {name}", number + 1, steps.len());
         let started = Instant::now();
         let result = step(options);
         if let Err(error) = &result {
-            eprintln!("error: {error:#}");
+            note!("error: {}", say::causes(error));
         }
         let passed = result.is_ok();
         results.push((name, passed, started.elapsed().as_secs_f64()));
@@ -81,13 +81,13 @@ pub fn run(options: &Test) -> Result<()> {
             break;
         }
     }
-    println!("\nSummary");
+    note!("\nSummary");
     for (name, passed, seconds) in &results {
         let result = if *passed { "passed" } else { "FAILED" };
-        println!("  {name:<14} {result} {seconds:8.1} s");
+        note!("  {name:<14} {result} {seconds:8.1} s");
     }
     for (name, ..) in steps.iter().skip(results.len()) {
-        println!("  {name:<14} not run");
+        note!("  {name:<14} not run");
     }
     let failed: Vec<_> =
         results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| **name).collect();
@@ -95,9 +95,7 @@ pub fn run(options: &Test) -> Result<()> {
         bail!("failed: {}", failed.join(", "));
     }
     if !options.thorough {
-        println!(
-            "\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough"
-        );
+        note!("\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough");
     }
     Ok(())
 }
@@ -143,14 +141,14 @@ fn pytest(arguments: &[&str]) -> Result<()> {
             .args(["--numprocesses", &workers.to_string(), "--dist", "worksteal"])
             .args(arguments)
             .current_dir(root())
-            .env("AHV_FMU", package::default_output()),
+            .env("AHV_FMU", package::default_output(Targets::Possible)),
     )
 }
 
 /// What the tests of the Windows library need and this machine does not have.
 fn missing_for_windows() -> Option<String> {
     if let Err(error) = package::can_build_for_windows() {
-        return Some(format!("{error:#}"));
+        return Some(say::causes(&error));
     }
     (!works("wine", &["--version"]))
         .then(|| "wine runs the library; on Debian: apt-get install wine wine64".to_string())

@@ -81,7 +81,7 @@ pub fn run(options: &Analyse) -> Result<()> {
             })
             .collect::<serde_json::Map<_, _>>();
         let whole = json!({ "configuration": configuration(&flight), "trim": values });
-        println!("{whole:#}");
+        say!("{whole:#}")?;
         return Ok(());
     }
     let mut text = vec![row(["quantity", "value", "unit"])];
@@ -89,7 +89,7 @@ pub fn run(options: &Analyse) -> Result<()> {
         text.push(vec![name.to_string(), number(value * factor), unit.to_string()]);
     }
     let kind = if flight.parameters().trim { "Trimmed flight" } else { "Start, not trimmed" };
-    println!("{kind}, {}; forces per metre of width", configuration(&flight));
-    print!("{}", table(&text));
+    say!("{kind}, {}; forces per metre of width", configuration(&flight))?;
+    put!("{}", table(&text))?;
     Ok(())
 }

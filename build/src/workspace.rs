@@ -3,7 +3,7 @@
 mod files;
 
 use anyhow::{Context, Result, bail};
-pub use files::{BINARY, DATA, Files, TEXT, read, read_text, write, write_together};
+pub use files::{BINARY, DATA, Files, TEXT, can_write, read, read_text, write, write_together};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;

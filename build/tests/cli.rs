@@ -1,38 +1,11 @@
 //! The tool from outside, as a user types it.
 #![allow(clippy::disallowed_methods)]
 
+mod tool;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 use tempfile::TempDir;
-
-struct Outcome {
-    ok: bool,
-    out: String,
-    err: String,
-}
-
-fn ahv(arguments: &[&str]) -> Outcome {
-    let output = Command::new(env!("CARGO_BIN_EXE_ahv")).args(arguments).output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    Outcome { ok: output.status.success(), out: text(output.stdout), err: text(output.stderr) }
-}
-
-/// A library that need not run, and a place to put an FMU.
-fn scratch() -> (TempDir, String, PathBuf) {
-    let directory = TempDir::new().unwrap();
-    let library = directory.path().join("any.so");
-    fs::write(&library, b"no library").unwrap();
-    let option = format!("linux64={}", library.display());
-    let fmu = directory.path().join("ahv.fmu");
-    (directory, option, fmu)
-}
-
-fn package(option: &str, fmu: &Path) -> Vec<u8> {
-    let done = ahv(&["package", "--library", option, "--output", fmu.to_str().unwrap()]);
-    assert!(done.ok, "{}", done.err);
-    fs::read(fmu).unwrap()
-}
+use tool::{ahv, package, scratch};
 
 #[test]
 fn committed_description_is_up_to_date() {

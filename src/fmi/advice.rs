@@ -2,6 +2,7 @@
 
 use crate::fmi::instance::Instance;
 use crate::fmi::sys::Status;
+use crate::short::short;
 use crate::variables;
 
 /// The controls' names, their unit, and what may have been mistaken.
@@ -16,6 +17,7 @@ impl Instance {
             let (now, before) = (value(&self.flight), value(&self.pristine));
             if let (Some(now), true) = (now, now != before) {
                 self.log.push(Status::Ok, || {
+                    let now = short(now);
                     format!("fmi2ExitInitializationMode: {name} = {now} has no effect: {why}")
                 });
             }
@@ -30,7 +32,7 @@ impl Instance {
         }
         if let Some((control, asked, [min, max])) = self.flight.beyond_limits() {
             let (name, unit, mistake) = CONTROLS[control];
-            let limit = asked.clamp(min, max);
+            let [asked, limit] = [asked, asked.clamp(min, max)].map(short);
             self.limit_said = true;
             self.log.push(Status::Ok, || {
                 format!(

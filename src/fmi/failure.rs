@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::fmi::sys::{Status, StatusKind};
+use crate::short::short;
 
 /// What a call of the standard comes to.
 pub type Outcome = Result<(), Failure>;
@@ -29,7 +30,7 @@ pub enum Failure {
         argument: &'static str,
     },
     /// An argument has a value that makes no sense.
-    #[error("{argument} = {value} is refused: {expected}")]
+    #[error("{argument} = {} is refused: {expected}", short(*value))]
     Argument {
         /// Name of the argument in the standard.
         argument: &'static str,
@@ -60,8 +61,9 @@ pub enum Failure {
     },
     /// A fixed parameter after initialisation.
     #[error(
-        "{variable} = {value} is refused: a fixed parameter can only be set before the end of \
-         the initialization mode"
+        "{variable} = {} is refused: a fixed parameter can only be set before the end of \
+         the initialization mode",
+        short(*value)
     )]
     TooLate {
         /// Name of the parameter.
@@ -88,7 +90,7 @@ pub enum Failure {
         highest: usize,
     },
     /// A direction or derivative that is no number.
-    #[error("change of {variable} = {value} is refused: a finite number is needed")]
+    #[error("change of {variable} = {} is refused: a finite number is needed", short(*value))]
     Seed {
         /// Name of the variable.
         variable: &'static str,

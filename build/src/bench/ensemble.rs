@@ -53,7 +53,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     for (best, threads) in best.iter_mut().zip([1, cores]) {
         let mut rates = Vec::new();
         for run in 0..RUNS {
-            eprintln!("  {threads} threads, run {} of {RUNS}", run + 1);
+            note!("  {threads} threads, run {} of {RUNS}", run + 1);
             rates.push(rate(&start, effort.many, threads)?);
         }
         let spread = Spread::of(rates);

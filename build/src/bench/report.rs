@@ -4,7 +4,7 @@ use super::chart;
 use super::precision::Point;
 use super::spread::Spread;
 use crate::table::{number, row, table};
-use crate::workspace::{DATA, Files, read_text, root, shown, target, write_together};
+use crate::workspace::{DATA, Files, read_text, root, shown, write_together};
 use anyhow::Result;
 use serde::Serialize;
 use std::ffi::OsStr;
@@ -82,7 +82,7 @@ impl Report {
         note: impl Into<String>,
     ) {
         let line = Line { what: what.into(), unit, value, note: note.into() };
-        eprintln!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
+        note!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
         self.lines.push(line);
     }
 
@@ -103,14 +103,19 @@ impl Report {
 
     pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
         let text = format!("{what}: {why:#}");
-        eprintln!("  left out: {text}");
+        note!("  left out: {text}");
         self.left_out.push(text);
     }
 
     /// Prints the table; writes bench.json and, with points, precision.svg and .png.
-    pub fn finish(&self, directory: Option<&Path>) -> Result<()> {
-        let directory = directory.map_or_else(|| target().join("bench"), Path::to_path_buf);
-        println!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "));
+    pub fn finish(&self, directory: &Path) -> Result<()> {
+        let json = serde_json::to_vec_pretty(self)?;
+        let mut files = Files::from([(directory.join("bench.json"), json)]);
+        if !self.points.is_empty() {
+            files.extend(chart::files(&self.points, directory)?);
+        }
+        write_together(&files)?;
+        say!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;
         let mut rows = vec![row(["", "median", "least", "largest", "unit", "note"])];
         for Line { what, unit, value, note } in &self.lines {
             let mut cells = vec![what.clone(), number(value.median)];
@@ -122,19 +127,13 @@ impl Report {
             cells.extend([(*unit).to_string(), note.clone()]);
             rows.push(cells);
         }
-        print!("{}", table(&rows));
+        put!("{}", table(&rows))?;
         for text in &self.left_out {
-            println!("  left out: {text}");
+            say!("  left out: {text}")?;
         }
-        let json = serde_json::to_vec_pretty(self)?;
-        let mut files = Files::from([(directory.join("bench.json"), json)]);
-        if !self.points.is_empty() {
-            files.extend(chart::files(&self.points, &directory)?);
-        }
-        write_together(&files)?;
-        println!();
+        say!("")?;
         for file in files.keys() {
-            println!("{}", shown(file));
+            say!("{}", shown(file))?;
         }
         Ok(())
     }

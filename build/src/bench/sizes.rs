@@ -35,7 +35,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         instance.initialise()?;
         instances.push(instance);
         if (number + 1) % 1000 == 0 {
-            eprintln!("  {} of {} instances", number + 1, effort.many);
+            note!("  {} of {} instances", number + 1, effort.many);
         }
     }
     let each = (resident()? - before) / instances.len() as f64;

@@ -3,6 +3,7 @@
 use super::columns::{Column, Role, columns, example};
 use super::{Manoeuvre, Row};
 use crate::model_description::ModelDescription;
+use ahv::short::short;
 use anyhow::{Context, Result, bail};
 
 /// Longest field that a message repeats, characters.
@@ -78,13 +79,13 @@ fn follows(row: &Row, rows: &[Row], at: &str) -> Result<()> {
     let time = row.time;
     match rows {
         [.., last] if time < last.time => bail!(
-            "{at}, column time: {time} s follows {} s; times have to increase, or stand twice for a \
-             jump",
-            last.time
+            "{at}, column time: {} s follows {} s; times have to increase, or stand twice for a jump",
+            short(time),
+            short(last.time)
         ),
         [.., first, _] if time == first.time => bail!(
-            "{at}, column time: a third row for {time} s; a jump has two, the values before and \
-             after it"
+            "{at}, column time: a third row for {} s; a jump has two, the values before and after it",
+            short(time)
         ),
         _ => Ok(()),
     }

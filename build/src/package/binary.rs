@@ -1,12 +1,12 @@
 //! What a library needs from the machine that loads it, and what it offers: read from the file.
 
-use super::platform::{LINUX, Platform, WINDOWS};
+use super::platform::Platform;
 use ahv::fmi::sys::signatures;
 use anyhow::{Context, Result, bail};
 use object::elf::FileHeader64;
 use object::read::elf::{FileHeader, SectionHeader};
 use object::read::{File, NameOrOrdinal};
-use object::{Endianness, Object};
+use object::{Architecture, BinaryFormat, Endianness, Object, ObjectKind, ObjectSection};
 use std::collections::BTreeSet;
 
 /// Version of the GNU C library: major, minor.
@@ -17,8 +17,17 @@ pub type Glibc = (u32, u32);
 pub const GLIBC: Glibc = (2, 17);
 
 /// Parts of glibc, which every Linux has.
-const LINUX_LIBRARIES: [&str; 5] =
-    ["libc.so.6", "libm.so.6", "libpthread.so.0", "libdl.so.2", "ld-linux-x86-64.so.2"];
+const LINUX_LIBRARIES: [&str; 6] = [
+    "libc.so.6",
+    "libm.so.6",
+    "libpthread.so.0",
+    "libdl.so.2",
+    "ld-linux-x86-64.so.2",
+    "ld-linux-aarch64.so.1",
+];
+
+/// What Rust links with where nobody asks for less: on nearly every Linux, but not on all.
+const UNWINDER: &str = "libgcc_s.so.1";
 
 /// Libraries that every Windows has, in lower case.
 const WINDOWS_LIBRARIES: [&str; 9] = [
@@ -33,9 +42,14 @@ const WINDOWS_LIBRARIES: [&str; 9] = [
     "api-ms-win-core-synch-l1-2-0.dll",
 ];
 
+/// Where macOS keeps its own libraries.
+const MACOS_FOLDERS: [&str; 2] = ["/usr/lib/", "/System/Library/"];
+
 /// A library as its file describes it.
 #[derive(Debug)]
 pub struct Binary {
+    format: BinaryFormat,
+    architecture: Architecture,
     /// Newest version of glibc that a symbol asks for; none if there is no such symbol.
     pub glibc: Option<Glibc>,
     /// Names of the libraries that are loaded with it.
@@ -45,13 +59,23 @@ pub struct Binary {
 }
 
 impl Binary {
-    /// Reads an ELF or PE file.
+    /// Reads an ELF, PE or Mach-O file.
     pub fn parse(bytes: &[u8]) -> Result<Self> {
-        let file = File::parse(bytes).context("this is no shared library")?;
+        const OTHER: &str = "this is no shared library";
+        let file = File::parse(bytes).ok().context(OTHER)?;
+        if file.kind() != ObjectKind::Dynamic {
+            bail!(OTHER);
+        }
+        for section in file.sections() {
+            section.data().ok().context("the end of this library is missing")?;
+        }
+        let (format, architecture) = (file.format(), file.architecture());
+        // Mach-O puts an underscore before every C name.
+        let prefix = if format == BinaryFormat::MachO { "_" } else { "" };
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         let exports = file.exports()?.map(|export| {
             Ok(match export?.name() {
-                NameOrOrdinal::Name(name) => text(name),
+                NameOrOrdinal::Name(name) => text(name).trim_start_matches(prefix).to_string(),
                 NameOrOrdinal::Ordinal(number) => format!("number {number}"),
             })
         });
@@ -59,33 +83,76 @@ impl Binary {
         if let File::Elf64(_) = file {
             let (needed, versions) = elf(bytes)?;
             let glibc = versions.iter().filter_map(|name| version(name)).max();
-            return Ok(Self { glibc, needed, exports });
+            return Ok(Self { format, architecture, glibc, needed, exports });
         }
-        let imports = file.imports()?.map(|import| Ok(text(import?.library()).to_lowercase()));
-        Ok(Self { glibc: None, needed: imports.collect::<Result<_>>()?, exports })
+        let imports = file.imports()?.map(|import| Ok(text(import?.library())));
+        let mut needed = imports.collect::<Result<BTreeSet<_>>>()?;
+        if format == BinaryFormat::Pe {
+            needed = needed.iter().map(|name| name.to_lowercase()).collect();
+        }
+        Ok(Self { format, architecture, glibc: None, needed, exports })
     }
 
-    /// Refuses a library that a user's machine may not be able to load.
-    pub fn check(&self, platform: Platform) -> Result<()> {
-        let known: &[&str] = match platform {
-            LINUX => &LINUX_LIBRARIES,
-            WINDOWS => &WINDOWS_LIBRARIES,
-            _ => bail!("{}: which libraries are the system's is not known", platform.name),
+    /// Refuses a library for other systems or processors.
+    pub fn is_for(&self, platform: Platform) -> Result<()> {
+        let format = match platform.os {
+            "linux" => BinaryFormat::Elf,
+            "windows" => BinaryFormat::Pe,
+            _ => BinaryFormat::MachO,
         };
-        let foreign: Vec<_> =
-            self.needed.iter().filter(|name| !known.contains(&name.as_str())).cloned().collect();
+        let architecture = match platform.arch {
+            "x86_64" => Architecture::X86_64,
+            _ => Architecture::Aarch64,
+        };
+        if (self.format, self.architecture) != (format, architecture) {
+            bail!(
+                "{} needs {format:?} for {architecture:?}, this is {:?} for {:?}",
+                platform.name,
+                self.format,
+                self.architecture
+            );
+        }
+        Ok(())
+    }
+
+    /// Refuses what is not a library for the platform with the functions of FMI, or needs what is not
+    /// part of a system.
+    pub fn check(&self, platform: Platform) -> Result<()> {
+        self.is_for(platform)?;
+        let known: fn(&str) -> bool = match platform.os {
+            "linux" => |name| LINUX_LIBRARIES.contains(&name) || name == UNWINDER,
+            "windows" => |name| WINDOWS_LIBRARIES.contains(&name),
+            _ => |name| MACOS_FOLDERS.iter().any(|folder| name.starts_with(folder)),
+        };
+        let foreign: Vec<_> = self.needed.iter().filter(|name| !known(name)).cloned().collect();
         if !foreign.is_empty() {
             bail!("{} needs {}: not part of the system", platform.name, foreign.join(", "));
+        }
+        let standard: BTreeSet<_> =
+            signatures().into_iter().map(|(name, _)| name.to_string()).collect();
+        let lacking: Vec<_> = standard.difference(&self.exports).cloned().collect();
+        if lacking.len() == standard.len() {
+            bail!("{} needs the functions of FMI 2.0: this library has none", platform.name);
+        }
+        if !lacking.is_empty() {
+            bail!("{} lacks functions of FMI 2.0: {}", platform.name, lacking.join(", "));
+        }
+        let more: Vec<_> = self.exports.difference(&standard).cloned().collect();
+        if !more.is_empty() {
+            bail!("{} exports more than FMI 2.0 has: {}", platform.name, more.join(", "));
+        }
+        Ok(())
+    }
+
+    /// Refuses also what an old system does not have.
+    pub fn check_everywhere(&self, platform: Platform) -> Result<()> {
+        self.check(platform)?;
+        if self.needed.contains(UNWINDER) {
+            bail!("{} needs {UNWINDER}: not part of every system", platform.name);
         }
         if let Some((major, minor)) = self.glibc.filter(|version| *version > GLIBC) {
             let (most, least) = GLIBC;
             bail!("{} needs glibc {major}.{minor}, newer than {most}.{least}", platform.name);
-        }
-        let standard: BTreeSet<_> =
-            signatures().into_iter().map(|(name, _)| name.to_string()).collect();
-        let differ: Vec<_> = self.exports.symmetric_difference(&standard).cloned().collect();
-        if !differ.is_empty() {
-            bail!("{} exports too much or too little: {}", platform.name, differ.join(", "));
         }
         Ok(())
     }
@@ -131,10 +198,17 @@ fn version(name: &str) -> Option<Glibc> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::package::platform::{LINUX, WINDOWS};
 
-    fn binary(glibc: Glibc, needed: &str) -> Binary {
-        let exports = signatures().into_iter().map(|(name, _)| name.to_string()).collect();
-        Binary { glibc: Some(glibc), needed: [needed.to_string()].into(), exports }
+    fn binary(platform: Platform, glibc: Glibc, needed: &str) -> Binary {
+        let elf = platform == LINUX;
+        Binary {
+            format: if elf { BinaryFormat::Elf } else { BinaryFormat::Pe },
+            architecture: Architecture::X86_64,
+            glibc: elf.then_some(glibc),
+            needed: [needed.to_string()].into(),
+            exports: signatures().into_iter().map(|(name, _)| name.to_string()).collect(),
+        }
     }
 
     #[test]
@@ -148,20 +222,36 @@ mod tests {
 
     #[test]
     fn what_users_may_not_have_is_refused() {
-        assert!(binary((2, 17), "libc.so.6").check(LINUX).is_ok());
+        let linux = |glibc, needed| binary(LINUX, glibc, needed);
+        assert!(linux((2, 17), "libc.so.6").check_everywhere(LINUX).is_ok());
         for (binary, platform, reason) in [
-            (binary((2, 18), "libc.so.6"), LINUX, "needs glibc 2.18"),
-            (binary((2, 17), "libgcc_s.so.1"), LINUX, "needs libgcc_s.so.1"),
-            (binary((2, 17), "libwinpthread-1.dll"), WINDOWS, "needs libwinpthread-1.dll"),
+            (linux((2, 18), "libc.so.6"), LINUX, "needs glibc 2.18"),
+            (linux((2, 17), UNWINDER), LINUX, "needs libgcc_s.so.1"),
+            (linux((2, 17), "libz.so.1"), LINUX, "needs libz.so.1"),
+            (binary(WINDOWS, GLIBC, "libwinpthread-1.dll"), WINDOWS, "needs libwinpthread-1.dll"),
+            (linux((2, 17), "libc.so.6"), WINDOWS, "win64 needs Pe for X86_64, this is Elf"),
         ] {
-            let message = binary.check(platform).unwrap_err().to_string();
+            let message = binary.check_everywhere(platform).unwrap_err().to_string();
             assert!(message.contains(reason), "{message}");
         }
-        let mut more = binary((2, 17), "libc.so.6");
+        // A machine may use what it has for a library of its own.
+        assert!(linux((2, 36), UNWINDER).check(LINUX).is_ok());
+        let mut arm = linux((2, 17), "libc.so.6");
+        arm.architecture = Architecture::Aarch64;
+        assert!(arm.check(LINUX).unwrap_err().to_string().contains("this is Elf for Aarch64"));
+        let mut more = linux((2, 17), "libc.so.6");
         more.exports.insert("rust_eh_personality".into());
         assert!(more.check(LINUX).unwrap_err().to_string().contains("rust_eh_personality"));
-        let mut less = binary((2, 17), "libc.so.6");
+        let mut less = linux((2, 17), "libc.so.6");
         less.exports.remove("fmi2DoStep");
         assert!(less.check(LINUX).unwrap_err().to_string().contains("fmi2DoStep"));
+    }
+
+    #[test]
+    fn what_is_no_library_or_only_its_beginning_is_refused() {
+        let tool = crate::workspace::read(&std::env::current_exe().unwrap(), u64::MAX - 1).unwrap();
+        let told = |bytes: &[u8]| format!("{:#}", Binary::parse(bytes).unwrap_err());
+        assert_eq!(told(b"# ahv"), "this is no shared library");
+        assert!(told(&tool[..tool.len() / 2]).contains("library"));
     }
 }

@@ -1,7 +1,7 @@
 //! Compiles the library for a platform.
 
 use super::binary::GLIBC;
-use super::platform::{HOST, LINUX, Platform, WINDOWS};
+use super::platform::{LINUX, Platform, WINDOWS, host};
 use super::windows::Toolchain;
 use crate::describe::MODEL_IDENTIFIER;
 use crate::python::{Environment, environment};
@@ -16,7 +16,7 @@ use std::process::{Command, Stdio};
 pub fn for_host() -> Result<PathBuf> {
     let mut command = cargo();
     command.arg("build");
-    compile(command, HOST, "host", Vec::new())
+    compile(command, host()?, "host", Vec::new())
 }
 
 /// The linker of zig, which knows the interfaces of all glibc versions.

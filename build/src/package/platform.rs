@@ -1,51 +1,90 @@
 //! Platforms by their names in an FMU.
+//!
+//! FMI 2.0 has names for x86-64 only; for other processors those of FMI 3.0 stand in.
 
 use super::binary::{GLIBC, Glibc};
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
+use std::env::consts::{ARCH, OS};
 use std::path::PathBuf;
 
-/// A platform that FMI 2.0 knows.
+/// A platform that has a name in an FMU.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Platform {
     /// Folder below `binaries`.
     pub name: &'static str,
     /// Ending of a library.
     pub ending: &'static str,
-    /// Rust's name of it.
+    /// Rust's names of its system, processor and both.
+    pub os: &'static str,
+    pub arch: &'static str,
     pub triple: &'static str,
 }
 
-pub const LINUX: Platform =
-    Platform { name: "linux64", ending: "so", triple: "x86_64-unknown-linux-gnu" };
-pub const WINDOWS: Platform =
-    Platform { name: "win64", ending: "dll", triple: "x86_64-pc-windows-gnu" };
-const MACOS: Platform =
-    Platform { name: "darwin64", ending: "dylib", triple: "x86_64-apple-darwin" };
-
-const PLATFORMS: [Platform; 3] = [LINUX, WINDOWS, MACOS];
+pub const LINUX: Platform = Platform {
+    name: "linux64",
+    ending: "so",
+    os: "linux",
+    arch: "x86_64",
+    triple: "x86_64-unknown-linux-gnu",
+};
+pub const WINDOWS: Platform = Platform {
+    name: "win64",
+    ending: "dll",
+    os: "windows",
+    arch: "x86_64",
+    triple: "x86_64-pc-windows-gnu",
+};
+const MACOS: Platform = Platform {
+    name: "darwin64",
+    ending: "dylib",
+    os: "macos",
+    arch: "x86_64",
+    triple: "x86_64-apple-darwin",
+};
+const PLATFORMS: [Platform; 6] = [
+    LINUX,
+    WINDOWS,
+    MACOS,
+    Platform {
+        name: "aarch64-linux",
+        arch: "aarch64",
+        triple: "aarch64-unknown-linux-gnu",
+        ..LINUX
+    },
+    Platform {
+        name: "aarch64-windows",
+        arch: "aarch64",
+        triple: "aarch64-pc-windows-msvc",
+        ..WINDOWS
+    },
+    Platform { name: "aarch64-darwin", arch: "aarch64", triple: "aarch64-apple-darwin", ..MACOS },
+];
 
 /// The platform of this machine.
-pub const HOST: Platform = if cfg!(windows) {
-    WINDOWS
-} else if cfg!(target_os = "macos") {
-    MACOS
-} else {
-    LINUX
-};
+pub fn host() -> Result<Platform> {
+    of(OS, ARCH).with_context(|| format!("FMI has no name for a platform like {OS} on {ARCH}"))
+}
+
+/// The platform with a system and a processor, by Rust's names of them.
+fn of(os: &str, arch: &str) -> Option<Platform> {
+    PLATFORMS.into_iter().find(|platform| (platform.os, platform.arch) == (os, arch))
+}
 
 impl Platform {
     /// The machines that it serves, for readers; `glibc`: the newest that the library asks for.
     /// Less than what every build is allowed to ask for is not promised.
     pub fn machines(self, glibc: Option<Glibc>) -> String {
-        match (self, glibc) {
-            (LINUX, Some(glibc)) => {
-                let (major, minor) = glibc.max(GLIBC);
-                format!("Linux (x86-64) with glibc {major}.{minor} or newer")
-            }
-            (LINUX, None) => "Linux (x86-64)".to_string(),
-            (WINDOWS, _) => "Windows (x86-64)".to_string(),
-            _ => format!("machines like {}", self.triple),
-        }
+        let system = match self.os {
+            "linux" => "Linux",
+            "windows" => "Windows",
+            _ => "macOS",
+        };
+        let processor = if self.arch == "x86_64" { "x86-64" } else { "ARM64" };
+        let with = glibc.map(|glibc| glibc.max(GLIBC));
+        let with = with.map_or(String::new(), |(major, minor)| {
+            format!(" with glibc {major}.{minor} or newer")
+        });
+        format!("{system} ({processor}){with}")
     }
 }
 
@@ -64,6 +103,26 @@ pub fn given(text: &str) -> Result<(Platform, PathBuf)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_machine_has_the_name_of_what_it_is() {
+        for (os, arch, name) in [
+            ("linux", "x86_64", "linux64"),
+            ("linux", "aarch64", "aarch64-linux"),
+            ("windows", "x86_64", "win64"),
+            ("windows", "aarch64", "aarch64-windows"),
+            ("macos", "x86_64", "darwin64"),
+            ("macos", "aarch64", "aarch64-darwin"),
+        ] {
+            let platform = of(os, arch).unwrap();
+            assert_eq!(platform.name, name);
+            assert!(platform.triple.starts_with(arch));
+        }
+        assert_eq!(of("linux", "s390x"), None);
+        let arm = of("linux", "aarch64").unwrap();
+        assert_eq!(arm.machines(Some((2, 36))), "Linux (ARM64) with glibc 2.36 or newer");
+        assert_eq!(arm.ending, "so");
+    }
 
     #[test]
     fn readers_are_told_the_glibc_that_the_library_needs() {

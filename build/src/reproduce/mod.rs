@@ -25,7 +25,7 @@ mod verdict;
 mod work;
 
 use crate::cli;
-use crate::workspace::{shown, target, write_together};
+use crate::workspace::{can_write, shown, target, write_together};
 use anyhow::Result;
 use clap::ValueEnum;
 
@@ -70,6 +70,7 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
         only => only,
     };
     let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
+    can_write(&directory.join("report.html"))?;
     let work = work::Work::new(parts, directory.join("figures"))?;
     let report = work.report(&sets)?;
     let mut files = work.drawn.into_inner();
@@ -86,8 +87,8 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
     }
     write_together(&files)?;
     for file in files.keys() {
-        println!("{}", shown(file));
+        say!("{}", shown(file))?;
     }
-    println!("done in {:.1} s", started.elapsed().as_secs_f64());
+    say!("done in {:.1} s", started.elapsed().as_secs_f64())?;
     Ok(())
 }

@@ -143,7 +143,9 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ahv::modes::Modes;
     use ahv::parameters::Parameters;
+    use ahv::vehicle::Configuration;
 
     #[test]
     fn the_energy_of_a_mode_is_that_of_the_one_mass_matrix() {

@@ -59,7 +59,7 @@ impl<'a> Work<'a> {
     pub fn report(&self, sets: &[Set]) -> Result<Report> {
         let mut table = None;
         if self.wants(&[Part::Table1]) {
-            println!("table 1");
+            note!("table 1");
             table = Some(self.table1()?);
         }
         let mut figures = Vec::new();
@@ -71,7 +71,7 @@ impl<'a> Work<'a> {
         }
         let mut veering = Vec::new();
         if self.wants(&[Part::Interaction]) {
-            println!("veering of the modes: half and full tanks");
+            note!("veering of the modes: half and full tanks");
             for fuel in [0.5, 1.0] {
                 veering.push(Veering::new(&self.data, &self.base, fuel)?);
             }
@@ -98,10 +98,10 @@ impl<'a> Work<'a> {
         if !self.wants(&[Part::Tradeoff]) {
             return Ok(None);
         }
-        println!("xu2015: trade-off between misfit and distance, there and back");
+        note!("xu2015: trade-off between misfit and distance, there and back");
         let trade_off = TradeOff::new(&|place| {
             let Place { weight, distance, misfit } = place;
-            println!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
+            note!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
         })?;
         self.draw(&tradeoff::Figure(&trade_off), tradeoff::SIZE, "tradeoff")?;
         Ok(Some(trade_off))
@@ -122,7 +122,7 @@ impl<'a> Work<'a> {
         if !self.wants(&[Part::Origin]) {
             return Ok(None);
         }
-        println!("where the printed digits come from");
+        note!("where the printed digits come from");
         Origin::new(&self.data, &self.base, &self.published).map(Some)
     }
 
@@ -145,7 +145,7 @@ impl<'a> Work<'a> {
         };
         let mut points = None;
         if self.wants(&[Part::Table2, Part::Table3, Part::Interaction]) {
-            println!("{}: tables 2 and 3", set.name);
+            note!("{}: tables 2 and 3", set.name);
             points = Some(self::points(&self.data, &base)?);
         }
         if let Some(points) = &points {
@@ -162,7 +162,7 @@ impl<'a> Work<'a> {
             let frequency = parameter == Parameter::Frequency && self.wants(&[Part::Interaction]);
             if self.wants(&[part, Part::Claims]) || frequency {
                 let (from, to, steps) = parameter.range();
-                println!("{}: {parameter:?} from {from} to {to}, {} points", set.name, steps + 1);
+                note!("{}: {parameter:?} from {from} to {to}, {} points", set.name, steps + 1);
                 report.sweeps.push(Sweep::new(&self.data, &base, parameter)?);
             }
             if let (true, Some(sweep)) = (self.wants(&[part]), report.sweeps.last()) {
@@ -175,7 +175,7 @@ impl<'a> Work<'a> {
         if let ([fuel, damping, frequency], true) =
             (report.sweeps.as_slice(), self.wants(&[Part::Claims]))
         {
-            println!("{}: {} claims", set.name, claims::CLAIMS.len());
+            note!("{}: {} claims", set.name, claims::CLAIMS.len());
             let laws = Laws::new(&self.data, &base, claims::SLIGHT)?;
             report.claims = test(&Evidence { fuel, damping, frequency, laws: &laws });
             report.laws = Some(laws);
@@ -191,7 +191,7 @@ impl<'a> Work<'a> {
     }
 
     fn draw(&self, drawing: &impl Drawing, size: (u32, u32), file: &str) -> Result<()> {
-        println!("figure: {file}");
+        note!("figure: {file}");
         self.drawn.borrow_mut().extend(files(drawing, size, &self.figures.join(file))?);
         Ok(())
     }

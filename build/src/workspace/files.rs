@@ -63,6 +63,31 @@ pub fn write_together(files: &Files) -> Result<()> {
     Ok(())
 }
 
+/// Fails early where a file cannot be written later: before something long is computed.
+pub fn can_write(path: &Path) -> Result<()> {
+    place(path).map(drop)
+}
+
+/// Where a file will be written; a link stays one, and its file is replaced. Makes the directories.
+fn place(path: &Path) -> Result<PathBuf> {
+    let cannot = || format!("cannot write {}", shown(path));
+    match fs::metadata(path) {
+        Ok(old) if old.is_dir() => bail!("{}: it is a directory", cannot()),
+        Ok(old) if !old.is_file() => bail!("{}: it is a device or a pipe", cannot()),
+        Ok(old) if old.permissions().readonly() => bail!("{}: it is read-only", cannot()),
+        Ok(_) => return path.canonicalize().with_context(cannot),
+        Err(_) => {}
+    }
+    let path = std::path::absolute(path).with_context(cannot)?;
+    let directory = path.parent().with_context(cannot)?;
+    if let Some(file) = directory.ancestors().find(|place| place.is_file()) {
+        bail!("{}: {} is a file, not a directory", cannot(), shown(file));
+    }
+    fs::create_dir_all(directory)
+        .with_context(|| format!("cannot create the directory {}", shown(directory)))?;
+    Ok(path)
+}
+
 /// A file written beside its place. It goes if it is dropped.
 struct Staged {
     file: NamedTempFile,
@@ -73,17 +98,8 @@ impl Staged {
     fn new(path: &Path, content: &[u8]) -> Result<Self> {
         let cannot = || format!("cannot write {}", shown(path));
         let old = fs::metadata(path).ok();
-        // A link stays one: its file is replaced.
-        let path = match &old {
-            Some(old) if old.is_dir() => bail!("{}: it is a directory", cannot()),
-            Some(old) if !old.is_file() => bail!("{}: it is a device or a pipe", cannot()),
-            Some(old) if old.permissions().readonly() => bail!("{}: it is read-only", cannot()),
-            Some(_) => path.canonicalize().with_context(cannot)?,
-            None => std::path::absolute(path).with_context(cannot)?,
-        };
+        let path = place(path)?;
         let directory = path.parent().with_context(cannot)?;
-        fs::create_dir_all(directory)
-            .with_context(|| format!("cannot create the directory {}", shown(directory)))?;
         let mut file = beside(directory).with_context(cannot)?;
         file.write_all(content).with_context(cannot)?;
         if let Some(old) = old {

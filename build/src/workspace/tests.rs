@@ -87,7 +87,7 @@ fn what_is_no_file_of_ours_is_not_replaced() {
     for (path, told) in [
         (file.as_path(), "a.csv: it is read-only"),
         (scratch.path(), "it is a directory"),
-        (&file.join("b.csv"), "cannot create the directory"),
+        (&file.join("b.csv"), "a.csv is a file, not a directory"),
         #[cfg(unix)]
         (Path::new("/dev/full"), "it is a device or a pipe"),
     ] {

@@ -98,7 +98,7 @@ def test_verif_a_state_of_another_vehicle_is_refused(own: Package, package: Pack
     ("old", "new", "told"),
     [
         ('unit = "kg/m^2"', 'unit = "lb/ft^2"', "mass.fore_beam_kg_per_m2: the unit is lb/ft^2"),
-        ("value = 0.65", "value = 6.5", "mass.propellant_fraction: 6.5 must lie between 0 and 1"),
+        ("value = 0.65", "value = 6.5", "mass.propellant_fraction: 6.5 must lie in [0, 1]"),
         ("[beam]", "[baem]", "unknown field `baem`"),
     ],
 )
