@@ -110,9 +110,17 @@ fn refused_arguments_are_named_for_what_they_are() {
     says(slave.set("w_gust", 300.0), ERROR, &["w_gust = 300", "the range is [-200, 200]"]);
     says(slave.set("phi", f64::NAN), ERROR, &["phi = NaN", "a finite number"]);
     says(slave.set_integer("V", 1), ERROR, &["V (value reference 2)", "it is a Real"]);
-    says(slave.lead("V", 1, 1.0), ERROR, &["V cannot be given a derivative: only inputs can"]);
-    says(slave.lead("phi", 4, 1.0), ERROR, &["derivative 4 of phi", "orders are 1 to 3"]);
-    says(slave.lead("phi", 1, 1e31), ERROR, &["change of phi = 1", "up to 1e30"]);
+    says(
+        slave.set_input_derivative("V", 1, 1.0),
+        ERROR,
+        &["V cannot be given a derivative: only inputs can"],
+    );
+    says(
+        slave.set_input_derivative("phi", 4, 1.0),
+        ERROR,
+        &["derivative 4 of phi", "orders are 1 to 3"],
+    );
+    says(slave.set_input_derivative("phi", 1, 1e31), ERROR, &["change of phi = 1", "up to 1e30"]);
     says(slave.step(1.0, 0.1), ERROR, &["currentCommunicationPoint = 1 s", "time 0 s", "begins"]);
     says(slave.step(0.0, -0.1), ERROR, &["communicationStepSize = -0.1", "a positive number"]);
     says(slave.setup(), ERROR, &["not allowed in state step complete", "allowed in: instantiated"]);

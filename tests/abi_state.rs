@@ -63,7 +63,7 @@ fn steer(slave: &Slave, random: &mut Random) {
         assert_eq!(slave.set(name, value), Status::Ok);
         for order in 0..random.below(4) as i32 {
             let rate = random.pick(&[0.0, 1e-3, -20.0, 20.0, 4e3, -1e12, 1e30]);
-            assert_eq!(slave.lead(name, order + 1, rate), Status::Ok);
+            assert_eq!(slave.set_input_derivative(name, order + 1, rate), Status::Ok);
         }
     }
 }
@@ -77,7 +77,7 @@ fn whatever_can_be_saved_can_be_restored_wherever_the_inputs_went() {
         for _ in 0..4 {
             if seed == 0 {
                 assert_eq!(slave.set("w_gust", 199.9), Status::Ok);
-                assert_eq!(slave.lead("w_gust", 1, 20.0), Status::Ok);
+                assert_eq!(slave.set_input_derivative("w_gust", 1, 20.0), Status::Ok);
             } else {
                 steer(&slave, &mut random);
             }
@@ -107,7 +107,10 @@ fn whatever_can_be_saved_can_be_restored_wherever_the_inputs_went() {
 fn a_gust_beyond_its_range_acts_as_the_fastest() {
     let api = Api::load();
     let (led, set) = (Slave::flying(&api), Slave::flying(&api));
-    assert_eq!((led.set("u_gust", 199.0), led.lead("u_gust", 1, 1e6)), (Status::Ok, Status::Ok));
+    assert_eq!(
+        (led.set("u_gust", 199.0), led.set_input_derivative("u_gust", 1, 1e6)),
+        (Status::Ok, Status::Ok)
+    );
     assert_eq!(led.step(0.0, 0.01), Status::Ok, "{:?}", led.log());
     assert_eq!(led.get("u_gust"), 199.0 + 1e4);
     let mach = led.get("mach");

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
+use crate::fmi::clock::same_instant;
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
@@ -13,27 +14,8 @@ use crate::fmi::sys::{Status, StatusKind};
 /// range, as a setup that works must not warn.
 pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 
-/// Two instants this close, over the step, are the same: masters add up communication points in
-/// different ways, or pass them on as decimal text.
-const SAME_INSTANT: f64 = 1e-6;
-/// So are two that differ by this, s, as both may have been rounded to nine decimals, unless the step
-/// is as short itself.
-const ROUNDED: f64 = 1.001e-9;
-/// Part of a step that is no rounding in any case.
-const LARGEST_SHARE: f64 = 0.25;
-/// So are two that are this many roundings apart.
-const ROUNDINGS: f64 = 64.0;
-
 /// Largest step (s), rate of an input or change that is taken: what is made of it does not overflow.
 pub const LARGEST: f64 = 1e30;
-
-/// Whether two instants (s) about a step (s) apart from others are the same. Their halves are compared,
-/// as the largest numbers are too far apart.
-fn same_instant(a: f64, b: f64, step: f64) -> bool {
-    let rounding = ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
-    let share = (SAME_INSTANT * step).max(ROUNDED.min(LARGEST_SHARE * step));
-    (0.5 * a - 0.5 * b).abs() <= 0.5 * rounding.max(share)
-}
 
 /// What an instance remembers besides the flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,10 +46,12 @@ pub enum Interface {
 pub struct Instance {
     interface: Interface,
     /// As it was when instantiated: what a reset goes back to.
-    pristine: Flight,
+    pub(super) pristine: Flight,
     pub(super) flight: Flight,
     pub(super) life: Life,
     logging_on: bool,
+    /// Whether it was said that an input is beyond its limit.
+    pub(super) limit_said: bool,
     /// Messages for the master.
     pub log: Log,
 }
@@ -81,7 +65,15 @@ impl Instance {
         let pristine = Flight::new()?;
         let flight = pristine.clone();
         let log = Log::new(logging_on);
-        Ok(Self { interface, pristine, flight, life: Life::NEW, logging_on, log })
+        Ok(Self {
+            interface,
+            pristine,
+            flight,
+            life: Life::NEW,
+            logging_on,
+            limit_said: false,
+            log,
+        })
     }
 
     /// Whether the master integrates, and is at it.
@@ -174,6 +166,8 @@ impl Instance {
                 )
             });
         }
+        self.say_ignored();
+        self.say_limit("fmi2ExitInitializationMode");
         Ok(())
     }
 
@@ -193,6 +187,7 @@ impl Instance {
     pub fn reset(&mut self) -> Outcome {
         self.flight = self.pristine.clone();
         self.life = Life::NEW;
+        self.limit_said = false;
         self.log.switch(false, &[])?;
         self.log.switch(self.logging_on, &[])
     }
@@ -235,7 +230,10 @@ impl Instance {
             return Ok(());
         }
         match self.flight.advance(end) {
-            Ok(()) => Ok(()),
+            Ok(()) => {
+                self.say_limit("fmi2DoStep");
+                Ok(())
+            }
             // A part of the step was flown, so the status is discard. The integrator chose its own
             // steps down to the last valid instant: a shorter communication step gets no further,
             // so the instance asks for the end of the simulation in both cases.

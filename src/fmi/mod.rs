@@ -7,6 +7,7 @@
 //! | [`failure`] | what a call can be refused for, as text and status |
 //! | [`log`] | categories, and messages waiting for the master's logger |
 //! | [`instance`] | one instance: set-up, steps, status |
+//! | `clock` | when two instants are the same |
 //! | [`exchange`] | model exchange: the master integrates |
 //! | [`values`] | reading and setting variables |
 //! | [`derivatives`] | directional derivatives, those of inputs and outputs by time |
@@ -23,6 +24,8 @@
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
 
 mod abi;
+mod advice;
+mod clock;
 pub mod derivatives;
 pub mod exchange;
 pub mod failure;

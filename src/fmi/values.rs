@@ -171,6 +171,7 @@ impl Instance {
         if moved {
             self.flight.set_state(&state);
         }
+        self.say_limit("fmi2SetReal");
         Ok(())
     }
 }
