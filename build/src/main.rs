@@ -16,6 +16,7 @@ mod identify;
 mod licenses;
 mod manoeuvre;
 mod master;
+mod masters;
 mod methods;
 mod model_description;
 mod modes;

@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::environment;
 use crate::workspace::{cargo, check, root};
-use crate::{abuse, bench, describe, package, say};
+use crate::{abuse, bench, describe, masters, package, say};
 use anyhow::{Result, bail};
 use std::path::PathBuf;
 use std::process::Command;
@@ -24,7 +24,7 @@ use Level::{Always, Thorough};
 /// A step: its name, when it runs, what it does.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 16] = [
+const STEPS: [Step; 17] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -48,6 +48,7 @@ const STEPS: [Step; 16] = [
     ("FMI headers", Always, |_| fmi_headers()),
     ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
+    ("other masters", Thorough, |_| masters::fly()),
     ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
     ("sanitizer", Thorough, |_| abuse::sanitizer()),
     ("valgrind", Thorough, |_| abuse::valgrind()),
