@@ -1,7 +1,6 @@
 //! The C functions under abuse: many random calls, and fewer under tools that watch the memory.
 
-use crate::test::works;
-use crate::workspace::{cargo, check, target};
+use crate::workspace::{cargo, check, target, works};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;

@@ -33,7 +33,7 @@ pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
         None if options.host_only => package::fresh(Targets::Host)?,
-        None => package::fresh(Targets::Possible)?,
+        None => package::fresh(Targets::Present)?,
     };
     let fmu = Fmu::open(&file)?;
     let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));

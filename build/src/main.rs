@@ -1,62 +1,13 @@
-//! `cargo ahv`: describes, packages, flies and tests the ahv FMU.
+//! `cargo ahv`.
 
-#[macro_use]
-mod say;
-
-mod abuse;
-mod bench;
-mod cli;
-mod describe;
-mod documentation;
-mod figure;
-mod fit;
-mod fly;
-mod fmu;
-mod identify;
-mod licenses;
-mod manoeuvre;
-mod master;
-mod masters;
-mod methods;
-mod model_description;
-mod modes;
-mod own;
-mod package;
-mod panels;
-mod plot;
-mod poles;
-mod published;
-mod python;
-mod raster;
-mod record;
-mod reproduce;
-mod settings;
-mod structure;
-mod table;
-mod test;
-mod trim;
-mod workspace;
-mod xml;
-
+use ahv_tool::cli::{Cli, Command};
+use ahv_tool::{describe, fly, modes, own, package, poles, research, say, test, trim, workspace};
 use anyhow::Result;
 use clap::Parser;
-use cli::{Cli, Command};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let done = match Cli::try_parse() {
-        Ok(Cli { command }) => run(&command),
-        // Help, or what is wrong with the arguments.
-        Err(told) => told.print().map_err(say::refused).map(|()| code(told.exit_code())),
-    };
-    match done.and_then(|code| say::flush().map(|()| code)) {
-        Ok(code) => code,
-        Err(error) if error.is::<say::Closed>() => ExitCode::SUCCESS,
-        Err(error) => {
-            note!("error: {}", say::causes(&error));
-            ExitCode::FAILURE
-        }
-    }
+    say::finish(Cli::try_parse().map(|Cli { command }| run(&command)))
 }
 
 fn run(command: &Command) -> Result<ExitCode> {
@@ -67,20 +18,16 @@ fn run(command: &Command) -> Result<ExitCode> {
     match command {
         Command::Describe(options) => describe::run(options),
         Command::Package(options) => package::run(options),
-        Command::Fit(options) => fit::run(options),
         Command::Fly(options) => fly::run(options),
         Command::Modes(options) => modes::run(options),
         Command::Trim(options) => trim::run(options),
         Command::Poles(options) => poles::run(options),
-        Command::Reproduce(options) => reproduce::run(options),
-        Command::Bench(options) => bench::run(options),
-        Command::Methods(options) => methods::run(options),
-        Command::Identify(options) => identify::run(options),
         Command::Test(options) => test::run(options),
+        Command::Reproduce(passed) => return research::run("reproduce", passed),
+        Command::Identify(passed) => return research::run("identify", passed),
+        Command::Fit(passed) => return research::run("fit", passed),
+        Command::Methods(passed) => return research::run("methods", passed),
+        Command::Bench(passed) => return research::run("bench", passed),
     }?;
     Ok(ExitCode::SUCCESS)
-}
-
-fn code(number: i32) -> ExitCode {
-    u8::try_from(number).map_or(ExitCode::FAILURE, ExitCode::from)
 }

@@ -29,6 +29,8 @@ use tempfile::TempDir;
 pub enum Targets {
     /// This machine's, with this machine's C library.
     Host,
+    /// Those of the file that is there, or this machine's: what a flight needs.
+    Present,
     /// As many as this machine can build for.
     Possible,
     /// A missing one is an error.
@@ -73,7 +75,8 @@ pub fn run(options: &Package) -> Result<()> {
 pub fn build(output: &Path, targets: Targets) -> Result<()> {
     let libraries = match targets {
         Targets::Host => Libraries::host()?,
-        _ => Libraries::build()?,
+        Targets::Present => Libraries::build(has_windows(output))?,
+        Targets::Possible | Targets::All => Libraries::build(true)?,
     };
     if targets == Targets::All && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
@@ -107,6 +110,14 @@ pub fn fresh(targets: Targets) -> Result<PathBuf> {
     Ok(output)
 }
 
+/// Whether there is an FMU that flies on Windows too.
+fn has_windows(file: &Path) -> bool {
+    archive::names(file).is_ok_and(|names| {
+        let folder = format!("binaries/{}/", WINDOWS.name);
+        names.iter().any(|name| name.starts_with(&folder))
+    })
+}
+
 /// Says what is missing for a Windows library.
 pub fn can_build_for_windows() -> Result<()> {
     windows::toolchain().map(drop)
@@ -138,8 +149,8 @@ impl Libraries {
         Ok(libraries)
     }
 
-    /// Compiles for all platforms that this machine can compile for.
-    fn build() -> Result<Self> {
+    /// Compiles for Linux, and for Windows if it is wanted and this machine can.
+    fn build(windows: bool) -> Result<Self> {
         let mut libraries = Self::default();
         let host = host()?;
         if host != LINUX {
@@ -166,6 +177,11 @@ impl Libraries {
                     say::causes(&error)
                 ));
             }
+        }
+        if !windows {
+            let missing = "for Windows too: cargo ahv package";
+            libraries.missing.push(missing.to_string());
+            return Ok(libraries);
         }
         match windows::toolchain() {
             Ok(toolchain) => {

@@ -1,6 +1,6 @@
 //! Python programs with exactly the locked packages.
 
-use crate::workspace::{TEXT, check, read, shown, target, write};
+use crate::workspace::{TEXT, check, read, root, shown, target, write};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -36,4 +36,9 @@ pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
     .with_context(|| format!("cannot install the packages of {}", shown(lock)))?;
     write(&stamp, wanted)?;
     Ok(Environment { programs, python })
+}
+
+/// The interpreter for the tests of the FMU, and for what is measured in Python.
+pub fn python() -> Result<PathBuf> {
+    Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
 }

@@ -3,18 +3,22 @@
 use anyhow::{Error, Result};
 use std::fmt::{self, Arguments, Display};
 use std::io::{self, ErrorKind, Write};
+use std::process::ExitCode;
 
 /// A line to standard output.
+#[macro_export]
 macro_rules! say {
     ($($part:tt)*) => { $crate::say::put(format_args!("{}\n", format_args!($($part)*))) };
 }
 
 /// Text to standard output.
+#[macro_export]
 macro_rules! put {
     ($($part:tt)*) => { $crate::say::put(format_args!($($part)*)) };
 }
 
 /// A line to standard error, for people; where nobody can read it, it is not missed.
+#[macro_export]
 macro_rules! note {
     ($($part:tt)*) => { $crate::say::note(format_args!($($part)*)) };
 }
@@ -63,6 +67,21 @@ pub fn causes(error: &Error) -> String {
         }
     }
     told
+}
+
+/// The end of a command; of clap's errors one is help.
+pub fn finish(done: Result<Result<ExitCode>, clap::Error>) -> ExitCode {
+    let code = |number| u8::try_from(number).map_or(ExitCode::FAILURE, ExitCode::from);
+    let done =
+        done.unwrap_or_else(|told| told.print().map_err(refused).map(|()| code(told.exit_code())));
+    match done.and_then(|code| flush().map(|()| code)) {
+        Ok(code) => code,
+        Err(error) if error.is::<Closed>() => ExitCode::SUCCESS,
+        Err(error) => {
+            note!("error: {}", causes(&error));
+            ExitCode::FAILURE
+        }
+    }
 }
 
 #[cfg(test)]

@@ -2,11 +2,11 @@
 
 use crate::cli::{Describe, Test};
 use crate::package::Targets;
-use crate::python::environment;
-use crate::workspace::{cargo, check, root};
-use crate::{abuse, bench, describe, masters, package, say};
+use crate::python::python;
+use crate::workspace::{cargo, check, root, target, works};
+use crate::{abuse, describe, masters, package, research, say};
 use anyhow::{Result, bail};
-use std::path::PathBuf;
+use std::ffi::OsString;
 use std::process::Command;
 use std::thread;
 use std::time::Instant;
@@ -52,7 +52,7 @@ const STEPS: [Step; 17] = [
     ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
     ("sanitizer", Thorough, |_| abuse::sanitizer()),
     ("valgrind", Thorough, |_| abuse::valgrind()),
-    ("bench runs", Thorough, |_| bench::smoke()),
+    ("bench runs", Thorough, |_| bench()),
     (WINDOWS, Thorough, |options| match missing_for_windows() {
         None => pytest(&["tests/wine"]),
         Some(missing) if options.all_targets => bail!("{missing}"),
@@ -128,11 +128,6 @@ fn prerequisites(options: &Test) -> Result<()> {
     Ok(())
 }
 
-/// Whether a program can be run like this.
-pub fn works(program: &str, arguments: &[&str]) -> bool {
-    Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
-}
-
 /// Tests of the packaged FMU in Python, on all processors.
 fn pytest(arguments: &[&str]) -> Result<()> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
@@ -178,7 +173,9 @@ fn fmi_headers() -> Result<()> {
     )
 }
 
-/// The interpreter for the tests of the FMU, and for what is measured in Python.
-pub fn python() -> Result<PathBuf> {
-    Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
+/// Rough numbers: everything that is measured can be.
+fn bench() -> Result<()> {
+    let output = target().join("bench/quick").into_os_string();
+    let options = ["--quick", "--only", "precision,ensemble", "--output"].map(OsString::from);
+    check(&mut research::command("bench", &[&options[..], &[output]].concat()))
 }

@@ -88,5 +88,10 @@ pub fn check(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
+/// Whether a program can be run like this.
+pub fn works(program: &str, arguments: &[&str]) -> bool {
+    Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
+}
+
 #[cfg(test)]
 mod tests;

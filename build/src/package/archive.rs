@@ -1,10 +1,12 @@
 //! The zip file.
 
+use crate::workspace::{BINARY, read};
 use anyhow::Result;
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
+use std::path::Path;
 use zip::write::SimpleFileOptions;
-use zip::{CompressionMethod, DateTime, System, ZipWriter};
+use zip::{CompressionMethod, DateTime, System, ZipArchive, ZipWriter};
 
 /// Plain zip that every unzipper reads: deflate, sorted names, one date, no zip64. The same files
 /// give the same bytes.
@@ -22,6 +24,13 @@ pub fn zip(files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>> {
         zip.write_all(content)?;
     }
     Ok(zip.finish()?.into_inner())
+}
+
+/// Names of the files in a zip.
+pub fn names(file: &Path) -> Result<Vec<String>> {
+    let mut zip = ZipArchive::new(Cursor::new(read(file, BINARY)?))?;
+    let name = |index| Ok(zip.by_index_raw(index)?.name()?.into_owned());
+    (0..zip.len()).map(name).collect()
 }
 
 #[cfg(test)]

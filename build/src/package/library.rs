@@ -57,7 +57,7 @@ fn compile(
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
     command
-        .args(["--quiet", "--release", "--package", "ahv-fmu", "--lib"])
+        .args(["--release", "--package", "ahv-fmu", "--lib"])
         .args(["--config", "profile.release.strip='symbols'"])
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")

@@ -1,0 +1,36 @@
+//! `cargo ahv`: describes, packages, flies and tests the ahv FMU. crates/research shares what is here.
+
+#![allow(missing_docs)]
+
+#[macro_use]
+pub mod say;
+
+pub mod abuse;
+pub mod cli;
+pub mod describe;
+pub mod documentation;
+pub mod figure;
+pub mod fly;
+pub mod fmu;
+pub mod licenses;
+pub mod manoeuvre;
+pub mod master;
+mod masters;
+pub mod model_description;
+pub mod modes;
+pub mod own;
+pub mod package;
+pub mod panels;
+pub mod plot;
+pub mod poles;
+pub mod python;
+pub mod raster;
+pub mod record;
+pub mod research;
+pub mod settings;
+pub mod structure;
+pub mod table;
+pub mod test;
+pub mod trim;
+pub mod workspace;
+pub mod xml;

@@ -1,0 +1,72 @@
+//! Measures what the vehicle costs, beside what a user would take instead. Never a test: a busy
+//! machine makes every time longer.
+
+mod chart;
+mod crates;
+#[cfg(feature = "diffsol")]
+mod diffsol;
+mod ensemble;
+mod instructions;
+mod masters;
+mod peers;
+mod precision;
+mod report;
+mod sizes;
+mod spread;
+mod start;
+
+use crate::cli::{Bench, BenchPart};
+use ahv_tool::workspace::{can_write, target};
+use anyhow::Result;
+use report::Report;
+use std::time::Duration;
+
+/// How much is done for a figure.
+#[derive(Debug, Clone, Copy)]
+pub struct Effort {
+    /// Repetitions whose median counts.
+    pub repeats: usize,
+    /// Least duration of one repetition of something short.
+    pub batch: Duration,
+    /// Flights of the ensemble, and instances in one process.
+    pub many: usize,
+}
+
+const FULL: Effort = Effort { repeats: 9, batch: Duration::from_millis(50), many: 10_000 };
+/// Enough to see that everything runs.
+const QUICK: Effort = Effort { repeats: 3, batch: Duration::from_millis(1), many: 100 };
+
+pub fn run(options: &Bench) -> Result<()> {
+    if let Some(probe) = options.probe {
+        return instructions::probe(probe, options.calls);
+    }
+    let directory = options.output.clone().unwrap_or_else(|| target().join("bench"));
+    can_write(&directory.join("bench.json"))?;
+    let effort = if options.quick { QUICK } else { FULL };
+    let mut report = Report::new()?;
+    for (part, name, measure) in PARTS {
+        if !options.only.is_empty() && !options.only.contains(&part) {
+            continue;
+        }
+        note!("{name} ...");
+        let lines = measure(&effort, &mut report);
+        match lines {
+            Err(error) if !options.only.is_empty() => return Err(error.context(name)),
+            // What is missing on this machine costs its own part only.
+            Err(error) => report.left_out(name, &error),
+            Ok(()) => {}
+        }
+    }
+    report.finish(&directory)
+}
+
+type Measure = fn(&Effort, &mut Report) -> Result<()>;
+
+const PARTS: [(BenchPart, &str, Measure); 6] = [
+    (BenchPart::Precision, "work and precision", precision::measure),
+    (BenchPart::Instructions, "instructions", instructions::measure),
+    (BenchPart::Masters, "FMPy", masters::measure),
+    (BenchPart::Start, "start-up and modes", start::measure),
+    (BenchPart::Size, "sizes", sizes::measure),
+    (BenchPart::Ensemble, "ensemble", ensemble::measure),
+];

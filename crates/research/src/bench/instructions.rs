@@ -1,0 +1,75 @@
+//! Instructions, which do not depend on how busy the machine is: counted by callgrind.
+
+use super::Effort;
+use super::precision::fly;
+use super::report::Report;
+use super::spread::Spread;
+use crate::cli::Probe;
+use crate::methods::Law;
+use ahv_tool::cli::Set;
+use ahv_tool::trim::{flight, model, ready};
+use ahv_tool::workspace::works;
+use ahv_tool::workspace::{TEXT, read_text, target};
+use anyhow::{Context, Result, bail};
+use std::hint::black_box;
+use std::process::Command;
+
+/// Calls of a probe; a run with twice as many tells what they cost without the start.
+const CALLS: usize = 1000;
+/// Steps of a flight in the probe of steps.
+const STEPS: usize = 100;
+
+/// Does something many times, for callgrind to count.
+pub fn probe(probe: Probe, calls: usize) -> Result<()> {
+    let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
+    let (vehicle, trim) = ready(&flight)?;
+    let (vehicle, trim) = (vehicle.clone(), *trim);
+    let start = flight.snapshot();
+    match probe {
+        Probe::Rates => (0..calls).for_each(|_| {
+            black_box(vehicle.derivatives(black_box(&trim.state), &trim.control, [0.0; 2]));
+        }),
+        Probe::Outputs => (0..calls).for_each(|_| {
+            black_box(vehicle.both(black_box(&trim.state), &trim.control, [0.0; 2]));
+        }),
+        Probe::Steps => {
+            for _ in 0..calls / STEPS {
+                flight.rewind(&start)?;
+                fly(&mut flight, STEPS, &Law::OPEN)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn count(probe: &str, calls: usize) -> Result<f64> {
+    let file = target().join("bench/callgrind.out");
+    let output = Command::new("valgrind")
+        .arg("--tool=callgrind")
+        .arg(format!("--callgrind-out-file={}", file.display()))
+        .arg(std::env::current_exe()?)
+        .args(["bench", "--probe", probe, "--calls", &calls.to_string()])
+        .output()?;
+    if !output.status.success() {
+        bail!("valgrind: {}", String::from_utf8_lossy(&output.stderr));
+    }
+    let text = read_text(&file, TEXT)?;
+    let total = text.lines().find_map(|line| line.strip_prefix("totals: "));
+    Ok(total.context("callgrind wrote no totals")?.trim().parse()?)
+}
+
+pub fn measure(_: &Effort, report: &mut Report) -> Result<()> {
+    if !works("valgrind", &["--version"]) {
+        bail!("valgrind is not installed; on Debian: apt-get install valgrind libc6-dbg");
+    }
+    std::fs::create_dir_all(target().join("bench"))?;
+    for (probe, what, aim) in [
+        ("rates", "right-hand side", "aim 750"),
+        ("outputs", "right-hand side and all outputs", "sensors included"),
+        ("steps", "step of 10 ms at 1e-8, in a doublet", "aim 8,000"),
+    ] {
+        let instructions = (count(probe, 2 * CALLS)? - count(probe, CALLS)?) / CALLS as f64;
+        report.line(what, Spread::exact(instructions.round()), "instructions", aim);
+    }
+    Ok(())
+}

@@ -1,0 +1,180 @@
+//! Error after one second against the time it takes: an elevator doublet on the flexible vehicle.
+
+use super::Effort;
+use super::report::Report;
+use super::spread::{Spread, seconds};
+use super::{crates, peers};
+use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
+use ahv::dynamics::State;
+use ahv::flight::{DEFAULT_TOLERANCE, Flight, method};
+use ahv_tool::cli::Set;
+use ahv_tool::python::python;
+use ahv_tool::trim::{flight, model, ready};
+use anyhow::Result;
+use serde::Serialize;
+
+/// How the names of our method begin.
+pub const OURS: &str = "ours";
+/// Of the picture.
+pub const TOLERANCES: [&str; 5] = ["1e-4", "1e-6", "1e-8", "1e-10", "1e-12"];
+/// Communication steps of the flight: 10 ms, and only where the input jumps.
+const STEPS: [usize; 2] = [100, 4];
+
+/// One method at one tolerance.
+#[derive(Debug, Clone, Serialize)]
+pub struct Point {
+    pub method: String,
+    pub tolerance: String,
+    /// Seconds per flight of one second.
+    pub seconds: Spread,
+    /// Right-hand sides.
+    pub calls: usize,
+    /// Largest error of a state over its nominal value plus its size.
+    pub error: f64,
+}
+
+/// What `cargo ahv fly` does, without the C functions.
+pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::error::Error> {
+    for step in 0..steps {
+        flight.set_input(0, law.elevator(step, steps, flight.state()));
+        flight.advance(FLIGHT_S * (step + 1) as f64 / steps as f64)?;
+    }
+    Ok(*flight.state())
+}
+
+/// Our flights at all tolerances, then those with other crates.
+fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Result<Vec<Point>> {
+    let (vehicle, trim) = ready(flight)?;
+    let (vehicle, trim) = (vehicle.clone(), *trim);
+    let problem = Problem::new(&vehicle, &trim, steps, law);
+    let (exact, _) = problem.fly(&mut &RKF78, EXACT);
+    let initial = flight.snapshot();
+    let mut points = Vec::new();
+    for tolerance in TOLERANCES {
+        flight.set_experiment(0.0, tolerance.parse()?);
+        let start = flight.snapshot();
+        let reached = fly(flight, steps, &law)?;
+        let mut again = || flight.rewind(&start).and_then(|()| fly(flight, steps, &law));
+        let seconds = seconds(effort, &mut again);
+        flight.rewind(&initial)?;
+        points.push(Point {
+            method: format!("{OURS}, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
+            tolerance: tolerance.to_string(),
+            seconds,
+            calls: problem.fly(&mut method(&vehicle, &trim), tolerance.parse()?).1,
+            error: error(&reached, &exact),
+        });
+    }
+    for (name, method) in crates::CRATES {
+        for tolerance in TOLERANCES {
+            let limit = tolerance.parse()?;
+            let fly = || {
+                problem
+                    .each(|system, interval, x| crates::step(*method, system, interval, x, limit))
+            };
+            let (reached, calls) = fly()?;
+            points.push(Point {
+                method: format!("{name}, {} ms steps", 1e3 * FLIGHT_S / steps as f64),
+                tolerance: tolerance.to_string(),
+                seconds: seconds(effort, fly),
+                calls,
+                error: error(&reached, &exact),
+            });
+        }
+    }
+    Ok(points)
+}
+
+pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
+    let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
+    let (vehicle, trim) = ready(&flight)?;
+    let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut &RKF78, EXACT).0;
+    let closed = Law::closed(trim);
+    report.versions.extend(crates::versions()?);
+    compare("closed loop, 1 s", &flights(effort, &mut flight, STEPS[0], closed)?, report);
+    let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
+    compare("1 s", &points, report);
+    // The others integrate anew where the elevator moves, as steps of a quarter do.
+    let mut rare = flights(effort, &mut flight, STEPS[1], Law::OPEN)?;
+    // A peer that is not installed is left out; one that is and fails is an error.
+    match peers::sundials() {
+        Ok(program) => {
+            report.version("dpkg-query", &["-W", "-f=SUNDIALS ${Version}", "libsundials-dev"]);
+            rare.extend(peers::under_sundials(&program, effort, &exact)?);
+        }
+        Err(why) => report.left_out("SUNDIALS", &why),
+    }
+    match python() {
+        Ok(python) => {
+            report.python_versions(&python, &["numpy", "scipy"]);
+            rare.extend(peers::under_scipy(&python, effort)?);
+        }
+        Err(why) => report.left_out("SciPy", &why),
+    }
+    compare("1 s", &rare, report);
+    points.extend(rare);
+    report.points = points;
+    Ok(())
+}
+
+/// A line for each method at the default tolerance, and how long it takes for an error of that size,
+/// beside the first method of `points`, which is ours.
+fn compare(what: &str, points: &[Point], report: &mut Report) {
+    let default = |point: &&Point| point.tolerance.parse() == Ok(DEFAULT_TOLERANCE);
+    let mut methods: Vec<_> = points.iter().map(|point| &point.method).collect();
+    methods.dedup();
+    let mut ours = None;
+    for method in methods {
+        let own: Vec<_> = points.iter().filter(|point| point.method == *method).collect();
+        let time = time_for(&own, DEFAULT_TOLERANCE);
+        for point in own.iter().copied().filter(default) {
+            let mut note = format!("{} right-hand sides, error {:.0e}", point.calls, point.error);
+            if let Some(seconds) = time {
+                note += &format!("; for {DEFAULT_TOLERANCE:.0e} {:.0} us", 1e6 * seconds);
+                match ours {
+                    Some(ours) => note += &format!(", {:.1} x ours", seconds / ours),
+                    None => ours = Some(seconds),
+                }
+            } else {
+                note += "; never as exact";
+            }
+            let what = format!("{what} at {}, {method}", point.tolerance);
+            report.line(what, point.seconds.scaled(1e6), "us", note);
+        }
+    }
+}
+
+/// Seconds for an error: between two points both fall as powers of each other; looser than the
+/// first point costs no less. Least times: another process on a core only ever adds some.
+fn time_for(points: &[&Point], error: f64) -> Option<f64> {
+    let first = points.first()?;
+    if first.error <= error {
+        return Some(first.seconds.least);
+    }
+    points.windows(2).find(|pair| pair[1].error <= error).map(|pair| {
+        let [x0, x1] = [pair[0].error.ln(), pair[1].error.ln()];
+        let [y0, y1] = [pair[0], pair[1]].map(|point| point.seconds.least.ln());
+        (y0 + (y1 - y0) * (error.ln() - x0) / (x1 - x0)).exp()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_for_an_error_is_read_between_the_points() {
+        let point = |error: f64, seconds: f64| Point {
+            method: String::new(),
+            tolerance: String::new(),
+            seconds: Spread::exact(seconds),
+            calls: 0,
+            error,
+        };
+        let points = [point(1e-2, 1.0), point(1e-4, 4.0)];
+        let points: Vec<_> = points.iter().collect();
+        assert!((time_for(&points, 1e-3).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(time_for(&points, 1.0), Some(1.0));
+        assert_eq!(time_for(&points, 1e-9), None);
+    }
+}

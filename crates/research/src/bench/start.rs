@@ -1,0 +1,80 @@
+//! From nothing to the first step, and the eigenproblem inside it.
+
+use super::Effort;
+use super::peers::lines;
+use super::report::Report;
+use super::spread::{Spread, seconds};
+use ahv::flight::DEFAULT_TOLERANCE;
+use ahv::modes::Modes;
+use ahv::trim::trim;
+use ahv::vehicle::{Data, structure};
+use ahv_tool::cli::Set;
+use ahv_tool::fmu::Fmu;
+use ahv_tool::master::Instance;
+use ahv_tool::modes::solved_elements;
+use ahv_tool::package::{self, Targets};
+use ahv_tool::python::python;
+use ahv_tool::trim::{flight, model, ready};
+use ahv_tool::workspace::{root, target, write};
+use anyhow::Result;
+use std::process::Command;
+use std::time::Instant;
+
+/// Numbers of elements over which the eigenproblem grows.
+const ELEMENTS: [u32; 5] = [125, 250, 500, 1000, 2000];
+
+pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
+    let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
+    let mut parts: [Vec<f64>; 3] = Default::default();
+    for _ in 0..10 * effort.repeats {
+        let started = Instant::now();
+        let mut instance = Instance::new(&fmu)?;
+        let loaded = started.elapsed().as_secs_f64();
+        instance.set_up(0.0, 1.0, DEFAULT_TOLERANCE)?;
+        instance.initialise()?;
+        let all = started.elapsed().as_secs_f64();
+        for (part, value) in parts.iter_mut().zip([loaded, all - loaded, all]) {
+            part.push(value);
+        }
+    }
+    let [loaded, initialised, all] = parts.map(|part| Spread::of(part).scaled(1e3));
+    report.line("start: load the library, instantiate", loaded, "ms", "");
+    report.line("start: initialise (modes, trim)", initialised, "ms", "");
+    report.line("start, all", all, "ms", "aim 3");
+
+    let flight = flight(&model()?, &Set { settings: Vec::new() })?;
+    let build = flight.parameters().build;
+    let (vehicle, _) = ready(&flight)?;
+    let trimmed = seconds(effort, || trim(vehicle, &build.condition));
+    report.line("trim", trimmed.scaled(1e3), "ms", "");
+    let mut data = Data::embedded()?;
+    let mut first = None;
+    for elements in ELEMENTS {
+        data.vehicle.beam.elements.value = elements;
+        let (beam, oscillators) = structure(&data, &build)?;
+        let time = seconds(effort, || Modes::solve(&beam, &oscillators));
+        let per = time.median / f64::from(elements);
+        let growth = per / *first.get_or_insert(per);
+        let note = format!("{growth:.2} x the time per element of 125");
+        report.line(format!("modes, {elements} elements"), time.scaled(1e3), "ms", note);
+    }
+    if let Err(why) = peers(report, &solved_elements(&build)?) {
+        report.left_out("eigsh and LAPACK", &why);
+    }
+    Ok(())
+}
+
+/// SciPy on the same matrices.
+fn peers(report: &mut Report, problem: &serde_json::Value) -> Result<()> {
+    let file = target().join("bench/beam.json");
+    write(&file, problem.to_string())?;
+    let script = root().join("crates/research/bench/modes_vs_eigsh.py");
+    let output = Command::new(python()?).arg(script).arg("--lines").arg(&file).output()?;
+    let ours = problem["median_s"].as_f64().unwrap_or(f64::NAN);
+    for cells in lines(output)? {
+        let seconds = super::peers::spread(&cells[1..4])?;
+        let note = format!("{:.0} x ours; error {}", seconds.median / ours, cells[4]);
+        report.line(format!("modes, 500 elements, {}", cells[0]), seconds.scaled(1e3), "ms", note);
+    }
+    Ok(())
+}

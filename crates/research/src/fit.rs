@@ -1,0 +1,253 @@
+//! Fits the curves of eq. (4) to the first-principles model and writes them as a coefficient set.
+
+mod regression;
+
+use crate::cli::Fit;
+use ahv::atmosphere::Atmosphere;
+use ahv::dynamics::Vehicle;
+use ahv::modes::{FLEXIBLE, Modes};
+use ahv::parameters::Parameters;
+use ahv::params::{
+    AeroData, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE, VehicleData,
+};
+use ahv::shock_expansion::elastic::{self, COMPARED};
+use ahv::shock_expansion::stream::Stream;
+use ahv::shock_expansion::{Attitude, ShockExpansion};
+use ahv::trim::trim;
+use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
+use ahv_tool::table::{row, table};
+use ahv_tool::workspace::{DATA, read_text, root, shown, write};
+use anyhow::{Result, bail};
+use regression::{Axis, COEFFICIENTS, Deviation, Sample, TERMS, deviation, fit, samples};
+use std::fmt::Write;
+
+/// alpha and delta_e in deg, phi.
+const GRID: [Axis; 3] = [(-2.0, 1.0, 8), (-20.0, 5.0, 9), (0.0, 0.1, 11)];
+/// Between the points of the grid.
+const HELD_OUT: [Axis; 3] = [(-1.5, 1.0, 7), (-17.5, 5.0, 8), (0.05, 0.1, 10)];
+/// Mach numbers at which the fit is compared with the model, to show where it stops to hold.
+const ELSEWHERE: [f64; 4] = [7.0, 7.5, 8.5, 9.0];
+const SOURCE: &str = "regression of shock_expansion, see cargo ahv fit";
+
+/// The files that the fit is made from.
+struct Inputs {
+    vehicle: VehicleData,
+    earth: EarthData,
+    published: AeroData,
+}
+
+/// Factors and how good they are.
+struct Fitted {
+    factors: [Vec<f64>; 4],
+    rows: Vec<Vec<String>>,
+}
+
+pub fn run(options: &Fit) -> Result<()> {
+    let file = root().join("src/data/aero/shock_expansion.toml");
+    let inputs = Inputs {
+        vehicle: VehicleData::embedded(&VEHICLE)?,
+        earth: EarthData::embedded(&EARTH)?,
+        published: AeroData::embedded(&PARKER2007)?,
+    };
+    let result = regress(&inputs)?;
+    let (text, compared) = text(&inputs, &result)?;
+    if !options.check {
+        write(&file, &text)?;
+    }
+    put!("{}", table(&result.rows))?;
+    put!("\nStrips against panels, elastic terms\n{}", table(&compared))?;
+    if !options.check {
+        return say!("{} is written", shown(&file));
+    }
+    if read_text(&file, DATA)? != text {
+        bail!(
+            "{} is not what the model says; run `cargo ahv fit`, then `cargo ahv describe`, and \
+             commit the results",
+            shown(&file)
+        );
+    }
+    say!("{} is up to date", shown(&file))
+}
+
+fn regress(inputs: &Inputs) -> Result<Fitted> {
+    let model = ShockExpansion::new(&inputs.vehicle, &inputs.earth);
+    let atmosphere = Atmosphere::new(&inputs.earth);
+    let default = &inputs.vehicle.default;
+    let at = |mach: f64| model.medium.ahead(&atmosphere, mach, default.altitude_m.value);
+    let take = |ahead: &Stream, axes| samples(&model, ahead, &inputs.published, axes);
+
+    let design = at(default.mach.value);
+    let (grid, choked) = take(&design, GRID)?;
+    let (held_out, held_out_choked) = take(&design, HELD_OUT)?;
+    let mut factors: [Vec<f64>; 4] = Default::default();
+    for (coefficient, factors) in factors.iter_mut().enumerate() {
+        *factors = fit(&grid, coefficient)?;
+    }
+
+    let heads = ["", "points", "choked"].into_iter().chain(COEFFICIENTS);
+    let mut rows = vec![heads.map(str::to_string).collect::<Vec<_>>()];
+    let mut report = |name: &str, samples: &[Sample], choked: usize, of: fn(&Deviation) -> f64| {
+        let mut cells = vec![name.to_string(), samples.len().to_string(), choked.to_string()];
+        for (coefficient, factors) in factors.iter().enumerate() {
+            cells.push(format!("{:.5}", of(&deviation(samples, coefficient, factors))));
+        }
+        rows.push(cells);
+    };
+    report("range of values", &grid, choked, |d| d.range);
+    report("fit, rms", &grid, choked, |d| d.rms);
+    report("fit, largest", &grid, choked, |d| d.largest);
+    report("held out, rms", &held_out, held_out_choked, |d| d.rms);
+    report("held out, largest", &held_out, held_out_choked, |d| d.largest);
+    for mach in ELSEWHERE {
+        let (samples, choked) = take(&at(mach), HELD_OUT)?;
+        report(&format!("at Mach {mach}, rms"), &samples, choked, |d| d.rms);
+    }
+    Ok(Fitted { factors, rows })
+}
+
+fn status(status: Status) -> &'static str {
+    match status {
+        Status::Published => "published",
+        Status::Converted => "converted",
+        Status::Derived => "derived",
+        Status::Identified => "identified",
+        Status::Assumed => "assumed",
+    }
+}
+
+fn line(key: &str, value: &str, unit: &str, source: &str, status: &str) -> String {
+    format!(
+        "{key} = {{ value = {value}, unit = \"{unit}\", source = \"{source}\", \
+         status = \"{status}\" }}\n"
+    )
+}
+
+fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
+    let value = format!("{:?}", quantity.value);
+    line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
+}
+
+/// The data file, and how good its elastic terms are. Incidence and elevator of the elastic derivatives
+/// are those of trimmed flight, which does not depend on them.
+fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> {
+    let first = with_fit(inputs, &file(inputs, result, [0.0; 2], &[])?)?;
+    let build = build(&first, Configuration::Rigid);
+    let trimmed = trim(&Vehicle::new(&first, &build)?, &build.condition)?;
+    let [delta_e, phi] = trimmed.control;
+    let attitude = Attitude { alpha: trimmed.state[3], delta_e, phi };
+
+    let elastic = [attitude.alpha, delta_e];
+    let second = with_fit(inputs, &file(inputs, result, elastic, &[])?)?;
+    let rows = compare(&second, &attitude)?;
+    Ok((file(inputs, result, elastic, &rows)?, rows))
+}
+
+/// The embedded data with another fit.
+fn with_fit(inputs: &Inputs, text: &str) -> Result<Data> {
+    Ok(Data {
+        shock_expansion: AeroData::parse("aero/shock_expansion.toml", text)?,
+        vehicle: inputs.vehicle.clone(),
+        earth: inputs.earth.clone(),
+        ..Data::embedded()?
+    })
+}
+
+fn build(data: &Data, configuration: Configuration) -> Build {
+    Build { configuration, aero: AeroSet::ShockExpansion, ..Parameters::new(data).build }
+}
+
+/// The derived elastic terms against direct integration over panels.
+fn compare(data: &Data, attitude: &Attitude) -> Result<Vec<Vec<String>>> {
+    let model = ShockExpansion::new(&data.vehicle, &data.earth);
+    let mut rows: Vec<_> = COMPARED.iter().map(|name| vec![name.to_string()]).collect();
+    for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
+        let build = build(data, configuration);
+        let vehicle = Vehicle::new(data, &build)?;
+        let (beam, oscillators) = structure(data, &build)?;
+        let modes = Modes::solve(&beam, &oscillators)?;
+        let condition = &build.condition;
+        let ahead = model.medium.ahead(&vehicle.atmosphere, condition.mach, condition.altitude);
+        let direct = model.elastic(&ahead, attitude, &vehicle.aero, &beam, &modes)?;
+        let found = elastic::deviation(&vehicle.airframe.elastic, &direct, FLEXIBLE);
+        for (row, value) in rows.iter_mut().zip(found) {
+            row.push(format!("{:.0} %", 100.0 * value));
+        }
+    }
+    rows.insert(0, row(["", "EvenMassBeam", "SloshBeam"]));
+    Ok(rows)
+}
+
+fn file(
+    inputs: &Inputs,
+    result: &Fitted,
+    elastic: [f64; 2],
+    compared: &[Vec<String>],
+) -> Result<String> {
+    let mut text = String::from(
+        "# Curve fits of eq. (4) to the first-principles air and engine model. Written by `cargo ahv fit`:\n\
+         # do not edit. Angles in rad; C_T is thrust over dynamic pressure and reference area.\n#\n",
+    );
+    let degrees = |(first, step, count): Axis| {
+        format!("{first} to {} in steps of {step}", first + step * (count - 1) as f64)
+    };
+    let [alpha, delta_e, phi] = GRID;
+    let default = &inputs.vehicle.default;
+    writeln!(
+        text,
+        "# Least squares at Mach {}, {} m: alpha {} deg, delta_e {} deg,\n\
+         # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n\
+         # The fit knows no choking: flights beyond the choking margin of the envelope are refused.\n#",
+        default.mach.value,
+        default.altitude_m.value,
+        degrees(alpha),
+        degrees(delta_e),
+        phi.0,
+        phi.0 + phi.1 * (phi.2 - 1) as f64,
+        phi.1,
+    )?;
+    for line in table(&result.rows).lines() {
+        writeln!(text, "# {}", line.trim_end())?;
+    }
+
+    text.push_str(
+        "#\n# Elastic terms are derived as for the published set: see aeroelastic.rs. Their difference from an\n\
+         # integration of the local incidence over panels, norm over the flexible modes:\n#\n",
+    );
+    for line in table(compared).lines() {
+        writeln!(text, "# {}", line.trim_end())?;
+    }
+
+    let published = &inputs.published;
+    let reference = &published.reference;
+    text.push_str("\n[reference]\n");
+    text.push_str(&copied("area_m2_per_m", &reference.area_m2_per_m));
+    text.push_str(&copied("chord_m", &reference.chord_m));
+    text.push_str(&copied("moment_centre_m", &reference.moment_centre_m));
+    text.push_str(&copied("thrust_arm_m", &reference.thrust_arm_m));
+    let source = "where the elastic derivatives are taken: rigid trim of this set";
+    for (key, angle) in ["elastic_alpha_rad", "elastic_delta_e_rad"].into_iter().zip(elastic) {
+        text.push_str(&line(key, &format!("{angle:.5}"), "rad", source, "derived"));
+    }
+    text.push_str(&copied("elastic_scale", &reference.elastic_scale));
+    text.push_str("\n[inertia]\n");
+    text.push_str(&copied("i_yy_kg_m2_per_m", &published.inertia.i_yy_kg_m2_per_m));
+    text.push_str(&copied("structural_damping", &published.inertia.structural_damping));
+    for (terms, factors) in TERMS.iter().zip(&result.factors) {
+        let mut table = "";
+        for (term, factor) in terms.iter().zip(factors) {
+            if term.table != table {
+                table = term.table;
+                writeln!(text, "\n[{table}]")?;
+            }
+            let value = format!("{factor:?}");
+            text.push_str(&line(term.key, &value, term.unit(), SOURCE, "derived"));
+        }
+    }
+    text.push_str("\n[envelope]\n");
+    text.push_str(&copied("alpha_rad", &published.envelope.alpha_rad));
+    text.push_str(&copied("mach", &published.envelope.mach));
+    text.push_str(&copied("altitude_m", &published.envelope.altitude_m));
+    let source = "the fit is made where the burner is not choked";
+    text.push_str(&line("choking_margin", "0.0", "1", source, "derived"));
+    Ok(text)
+}

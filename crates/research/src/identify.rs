@@ -1,0 +1,101 @@
+//! Identification: numbers that are not published, from results that are.
+
+mod beam;
+mod bodies;
+mod cells;
+mod fit;
+mod knowledge;
+mod numbers;
+mod path;
+mod report;
+mod stations;
+mod tradeoff;
+
+use crate::cli::{Identified, Identify};
+use ahv::params::{AeroData, DataFile, VehicleData};
+use ahv::vehicle::Data;
+use ahv_tool::workspace::{DATA, read_text, root, shown, write};
+use anyhow::{Result, bail};
+pub use cells::size;
+use report::Report;
+pub use tradeoff::{Moved, Place, TradeOff};
+
+pub fn run(options: &Identify) -> Result<()> {
+    match options.what {
+        Identified::Beam => beam(options),
+        Identified::Xu2015 => xu2015(options),
+    }
+}
+
+const VEHICLE: &str = "src/data/vehicle.toml";
+const XU2015: &str = "src/data/aero/xu2015.toml";
+
+/// The data as the files have them now: each identification rests on what the other one wrote.
+fn data() -> Result<Data> {
+    Ok(Data {
+        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE), DATA)?)?,
+        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015), DATA)?)?,
+        ..Data::embedded()?
+    })
+}
+
+fn beam(options: &Identify) -> Result<()> {
+    let before = read_text(&root().join(VEHICLE), DATA)?;
+    let data = data()?;
+    let model = beam::Model::new(data, beam::printed()?)?;
+    let solution = model.solve()?;
+    let report = beam::Report::new(&model, &solution)?;
+    let text = beam::file(&before, &solution.vehicle, &report.known())?;
+    VehicleData::parse("vehicle.toml", &text)?;
+    let settled = settle(options, "beam", VEHICLE, &text);
+    if options.json {
+        say!("{}", serde_json::to_string_pretty(&report)?)?;
+    } else if !options.check {
+        put!("{}", report.text())?;
+    }
+    settled
+}
+
+fn xu2015(options: &Identify) -> Result<()> {
+    let model = path::Model::new(data()?)?;
+    let chosen = model.chosen()?;
+    let text = model.origin.file(&chosen.fit.point)?;
+    let settled = settle(options, "xu2015", XU2015, &text);
+    if options.json || !options.check {
+        let (path, knee) = model.path(&|_| ())?;
+        let best = model.best(&chosen)?;
+        let report = Report::new(&model, &path, knee, [&chosen, &best])?;
+        if options.json {
+            say!("{:#}", report.json())?;
+        } else {
+            put!("{}", report.text()?)?;
+        }
+    }
+    settled
+}
+
+/// Writes a file of the repository, or compares it with what would be written.
+fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
+    let file = root().join(name);
+    let tell = |done: &str| note!("{} {done}", shown(&file));
+    if !options.check {
+        write(&file, text)?;
+        tell("is written");
+        return Ok(());
+    }
+    let found = read_text(&file, DATA)?;
+    if found == text {
+        tell("is what comes out");
+        return Ok(());
+    }
+    let line = found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
+    let at = |text: &str| text.lines().nth(line).unwrap_or("(end of file)").to_string();
+    bail!(
+        "{}, line {}: not what comes out; run `cargo ahv identify {what}` and commit the result\n  \
+         found:    {}\n  expected: {}",
+        shown(&file),
+        line + 1,
+        at(&found),
+        at(text),
+    );
+}

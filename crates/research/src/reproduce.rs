@@ -1,0 +1,94 @@
+//! `cargo ahv reproduce`: every table, figure and claim of the paper beside ours, with a verdict.
+
+mod advice;
+mod claims;
+mod claims_page;
+mod eigen;
+mod figures;
+mod fit_errors;
+mod html;
+mod identified;
+mod interaction;
+mod laws;
+mod markdown;
+mod origin;
+mod origin_page;
+mod point;
+mod report;
+mod roots;
+mod sets;
+mod sweep;
+mod tables;
+mod track;
+mod veering;
+mod verdict;
+mod work;
+
+use crate::cli;
+use ahv_tool::workspace::{can_write, shown, target, write_together};
+use anyhow::Result;
+use clap::ValueEnum;
+
+/// What a report can be made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Part {
+    /// Natural frequencies
+    Table1,
+    /// Poles
+    Table2,
+    /// Zeros
+    Table3,
+    /// Bending stiffness
+    Fig3,
+    /// Mode shapes
+    Fig5,
+    /// Poles and zeros while fuel is burnt
+    Fig6,
+    /// The same over slosh damping
+    Fig7,
+    /// The same over slosh frequency
+    Fig8,
+    /// What the paper concludes
+    Claims,
+    /// Slosh, beam and short period together
+    Interaction,
+    /// Which numbers xu2015 moved, and what more would have cost
+    Tradeoff,
+    /// Where the printed digits come from
+    Origin,
+    /// Errors of the fit behind shock_expansion
+    Fit,
+    /// What is wrong in the paper
+    Errata,
+}
+
+pub fn run(options: &cli::Reproduce) -> Result<()> {
+    let started = std::time::Instant::now();
+    let sets = sets::chosen(&options.aero)?;
+    let parts = match options.only.as_slice() {
+        [] => Part::value_variants(),
+        only => only,
+    };
+    let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
+    can_write(&directory.join("report.html"))?;
+    let work = work::Work::new(parts, directory.join("figures"))?;
+    let report = work.report(&sets)?;
+    let mut files = work.drawn.into_inner();
+
+    let markdown = markdown::render(&report);
+    let svg = |link: &str| String::from_utf8(files.get(&directory.join(link))?.clone()).ok();
+    let html = html::render(&markdown, "The paper's results beside ours", svg);
+    for (name, content) in [
+        ("report.html", html),
+        ("report.md", markdown),
+        ("report.json", format!("{:#}\n", serde_json::to_value(&report)?)),
+    ] {
+        files.insert(directory.join(name), content.into_bytes());
+    }
+    write_together(&files)?;
+    for file in files.keys() {
+        say!("{}", shown(file))?;
+    }
+    say!("done in {:.1} s", started.elapsed().as_secs_f64())?;
+    Ok(())
+}
