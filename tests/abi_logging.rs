@@ -84,6 +84,106 @@ fn every_message_has_the_instance_name_a_declared_category_and_the_status_return
 }
 
 #[test]
+fn an_input_beyond_its_limit_is_said_once_and_changes_no_status() {
+    let api = Api::load();
+    let said = |slave: &Slave| {
+        let log = slave.log();
+        let texts: Vec<_> = log.into_iter().map(|record| record.message).collect();
+        texts.into_iter().filter(|text| text.contains("its limit")).collect::<Vec<_>>()
+    };
+    let slave = Slave::with_logging(&api, true);
+    for _ in 0..2 {
+        slave.start();
+        assert_eq!(slave.set("delta_e", 0.001), Status::Ok);
+        assert!(said(&slave).is_empty());
+        // Degrees in place of radians.
+        assert_eq!(slave.set("delta_e", 5.0), Status::Ok);
+        let [text] = &said(&slave)[..] else { panic!("one message") };
+        let expected = "fmi2SetReal: delta_e asks for 5.18";
+        assert!(text.starts_with(expected) && text.contains("gets 0.349"), "{text}");
+        assert!(text.ends_with("inputs are in rad, not in degrees"), "{text}");
+        assert_eq!(slave.set("phi", 9.0), Status::Ok);
+        assert_eq!(slave.step(0.0, 0.001), Status::Ok);
+        assert!(said(&slave).is_empty(), "once");
+        assert_eq!(slave.reset(), Status::Ok);
+    }
+    // A ramp meets the limit within a step; an input set before initialisation is known at its end.
+    slave.start();
+    assert_eq!(slave.set_input_derivative("phi", 1, -100.0), Status::Ok);
+    assert_eq!(slave.step(0.0, 0.01), Status::Ok);
+    assert!(said(&slave)[0].starts_with("fmi2DoStep: phi asks for -0."));
+    assert_eq!(slave.reset(), Status::Ok);
+    assert_eq!(slave.set("phi", 2.0), Status::Ok);
+    slave.start();
+    assert!(said(&slave)[0].starts_with("fmi2ExitInitializationMode: phi asks for 2."));
+    // Without logging there is nothing to hear.
+    let mute = Slave::flying(&api);
+    assert_eq!(mute.set("delta_e", 5.0), Status::Ok);
+    assert!(mute.log().is_empty());
+}
+
+#[test]
+fn parameters_without_effect_are_named_and_have_none() {
+    let api = Api::load();
+    let flown = |configuration: i32, set: &[(&str, f64)]| {
+        let slave = Slave::with_logging(&api, true);
+        for (name, value) in set {
+            assert_eq!(slave.set(name, *value), Status::Ok, "{name}");
+        }
+        slave.start_as(configuration);
+        let log = slave.log();
+        let said = log.into_iter().filter(|record| record.message.contains("has no effect"));
+        let said: Vec<_> = said.map(|record| record.message).collect();
+        assert_eq!(slave.set("delta_e", 0.001), Status::Ok);
+        assert_eq!(slave.step(0.0, 0.1), Status::Ok);
+        let names = ["V", "alpha", "q", "eta1", "slosh1", "slosh2", "n_z_imu"];
+        (said, names.map(|name| slave.get(name).to_bits()))
+    };
+    let everywhere =
+        [("alpha0", 0.01), ("q0", 0.01), ("eta10", 0.01), ("eta20", 0.01), ("eta30", 0.01)];
+    let bending = [
+        ("eta1_offset", 0.001),
+        ("eta1_dot_offset", 0.01),
+        ("eta2_offset", 0.001),
+        ("eta2_dot_offset", 0.01),
+        ("eta3_offset", 0.001),
+        ("eta3_dot_offset", 0.01),
+        ("elastic_factor", 1.1),
+        ("stiffness_factor", 1.1),
+        ("structural_damping_factor", 1.1),
+    ];
+    let sloshing = [
+        ("slosh_damping", 0.02),
+        ("slosh_frequency", 9.0),
+        ("slosh1_offset", 0.001),
+        ("slosh1_dot_offset", 0.01),
+        ("slosh2_offset", 0.001),
+        ("slosh2_dot_offset", 0.01),
+    ];
+    for configuration in 1..=3 {
+        let plain = flown(configuration, &[]);
+        assert!(plain.0.is_empty());
+        let kinds = [(&everywhere[..], 4), (&bending, 2), (&sloshing, 3)];
+        for (name, value, from) in
+            kinds.iter().flat_map(|(kind, from)| kind.iter().map(move |(n, v)| (*n, *v, *from)))
+        {
+            let (said, bits) = flown(configuration, &[(name, value)]);
+            let silent = configuration >= from;
+            assert_eq!(
+                said.is_empty(),
+                silent,
+                "{name} in configuration {configuration}: {said:?}"
+            );
+            assert_eq!(bits != plain.1, silent, "{name} in configuration {configuration}");
+            if let [text] = &said[..] {
+                let start = format!("fmi2ExitInitializationMode: {name} = {value} has no effect: ");
+                assert!(text.starts_with(&start), "{text}");
+            }
+        }
+    }
+}
+
+#[test]
 fn the_callbacks_are_copied_and_a_null_logger_is_fine() {
     let api = Api::load();
     let (sink, guid) = (Sink::default(), CString::new(guid()).unwrap());

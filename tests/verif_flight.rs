@@ -160,14 +160,15 @@ fn verif_examples_stay_inside_the_envelope() {
         for configuration in CONFIGURATIONS {
             let mut flight = flight(configuration);
             flight.change(|p| p.build.aero = set);
-            if rows[0][0] > 0.0 {
-                flight.advance(rows[0][0]).unwrap();
-            }
             for (i, row) in rows.iter().enumerate() {
                 for (name, value) in names.iter().zip(row).skip(1) {
                     flight.set_input(usize::from(*name == "phi"), *value);
                 }
                 let end = rows.get(i + 1).map_or(2.0, |next| next[0]);
+                // A jump: two rows with the same time.
+                if end == row[0] {
+                    continue;
+                }
                 let flown = flight.advance(end);
                 assert!(flown.is_ok(), "{names:?}, {set:?}, {configuration:?}: {flown:?}");
             }

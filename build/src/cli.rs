@@ -91,13 +91,13 @@ pub struct Package {
 /// Fly a manoeuvre with the FMU; write the time history as CSV and as a figure
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Input file: CSV with the header `time,delta_e,phi` or any part of it; time in s, delta_e in rad
-(or `delta_e[deg]` for degrees), phi without unit. A value holds from its time on until the next
-line; before the first line the inputs are zero. With the default input mode both are deviations
-from trim.
+Input file: CSV with the header `time,delta_e,phi` or any inputs; time in s, delta_e in rad (or
+`delta_e[deg]` for degrees), phi without unit. Inputs are linear between rows; a jump is two rows
+with the same time, before and after it. The first row's values hold before it, the last row's
+after it. With the default input mode both are deviations from trim.
 
-Output files: flight.csv (time, all inputs, all outputs; SI units and radians), flight.svg,
-flight.png.
+Output files: flight.csv (time, all inputs, all outputs; SI units and radians), which can be flown
+again, flight.svg, flight.png.
 
 Examples:
   cargo ahv fly

@@ -4,8 +4,11 @@ use crate::raster;
 use crate::workspace::Files;
 use anyhow::{Result, anyhow};
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{BoldPoints, Ranged};
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
+use std::ops::Range;
 use std::path::Path;
 
 /// The PNG is drawn this much larger, ...
@@ -67,10 +70,14 @@ where
     area.present().map_err(failed)
 }
 
-/// Decimals that tell apart the labels over a range. Their distance is the next of 1, 2, 5 times a
-/// power of ten, so one of 0.5 or more to its power of ten needs no further decimal.
-pub fn decimals(range: f64, labels: usize) -> usize {
-    (-(2.0 * range / labels as f64).log10().floor()).clamp(0.0, 6.0) as usize
+/// Decimals that the labels of an axis need.
+pub fn decimals(range: Range<f64>, labels: usize) -> usize {
+    let ticks = RangedCoordf64::from(range).key_points(BoldPoints(labels));
+    let &[first, second, ..] = ticks.as_slice() else { return 6 };
+    let rounded = |tick: f64, digits: i32| (tick * 10f64.powi(digits)).round() / 10f64.powi(digits);
+    let near = |tick: &f64, digits| (rounded(*tick, digits) - tick).abs() < 1e-3 * (second - first);
+    let needed = (0..6).find(|digits| ticks.iter().all(|tick| near(tick, *digits)));
+    needed.unwrap_or(6) as usize
 }
 
 /// A number on an axis; what rounds to zero has no sign.
@@ -88,10 +95,11 @@ mod tests {
 
     #[test]
     fn labels_on_an_axis_are_short() {
-        assert_eq!(decimals(0.015, 7), 3);
-        assert_eq!(decimals(0.045, 7), 2);
-        assert_eq!(decimals(0.2, 7), 2);
-        assert_eq!(decimals(50.0, 7), 0);
+        assert_eq!(decimals(0.0..0.015, 6), 3);
+        assert_eq!(decimals(0.9998..1.0028, 6), 4, "steps of 0.0005");
+        assert_eq!(decimals(0.0..0.04, 6), 2);
+        assert_eq!(decimals(-0.1..0.1, 6), 2);
+        assert_eq!(decimals(0.0..50.0, 6), 0);
         assert_eq!(label(-1e-17, 2), "0.00");
         assert_eq!(label(-0.25, 2), "-0.25");
     }

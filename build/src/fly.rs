@@ -2,32 +2,19 @@
 
 use crate::cli::Fly;
 use crate::fmu::Fmu;
+use crate::hints::hints;
 use crate::manoeuvre::Manoeuvre;
-use crate::master::{Instance, Step, status_name};
+use crate::master::{Instance, status_name};
 use crate::model_description::{Causality, ModelDescription, Variable};
 use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
 use crate::workspace::{Files, can_write, root, shown, target, write_together};
-use crate::{package, plot};
+use crate::{package, pilot, plot};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
-use std::time::{Duration, Instant};
-
-/// Steps of which a record is kept; each takes about 200 bytes of memory and of the CSV file.
-const MAX_STEPS: f64 = 1e6;
-/// Communication points closer than this share of a step are one.
-const SAME_INSTANT: f64 = 1e-6;
-
-/// How far a flight came.
-struct Flown {
-    record: Record,
-    /// Time spent in the FMU's steps.
-    spent: Duration,
-    /// Why it ended early.
-    discarded: Option<String>,
-}
+use std::path::Path;
 
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
@@ -47,6 +34,10 @@ pub fn run(options: &Fly) -> Result<()> {
     let input =
         options.input.clone().unwrap_or_else(|| root().join("examples/elevator_doublet.csv"));
     let manoeuvre = Manoeuvre::read(&input, model)?;
+    let points = pilot::communication_points(step, stop, manoeuvre.times())?;
+    for hint in hints(&manoeuvre, &shown(&input), stop) {
+        note!("hint: {hint}");
+    }
 
     let mut instance = Instance::new(&fmu)?;
     for setting in &settings {
@@ -55,25 +46,17 @@ pub fn run(options: &Fly) -> Result<()> {
             .with_context(|| format!("--set {}", setting.text))?;
     }
     instance.set_up(0.0, stop, tolerance)?;
-    apply(&mut instance, &manoeuvre, 0.0)?;
-    instance.initialise()?;
+    let recorded = model.with(Causality::Input).chain(model.with(Causality::Output));
+    let flown = pilot::fly(&mut instance, &manoeuvre, recorded, &points)?;
     let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
-    if stop / step > MAX_STEPS {
-        bail!(
-            "--step {} s makes {:.0e} steps in {} s; the record holds {MAX_STEPS:.0e}",
-            short(step),
-            stop / step,
-            short(stop)
-        );
-    }
-    let flown = fly(&mut instance, model, &manoeuvre, step, stop)?;
     if flown.discarded.is_none() {
         instance.terminate()?;
     }
 
     let csv = directory.join("flight.csv");
+    let title = title(model, &settings, &input);
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
-    files.extend(plot::figures(&flown.record, &directory)?);
+    files.extend(plot::figures(&flown.record, &title, &directory)?);
     write_together(&files)?;
     say!("FMU          {}", shown(&file))?;
     say!("inputs       {}", shown(&input))?;
@@ -105,68 +88,20 @@ pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     }
 }
 
-/// Sets the inputs that hold at a time.
-pub fn apply(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
-    let values = manoeuvre.at(time).unwrap_or_default();
-    manoeuvre.inputs.iter().zip(values).try_for_each(|(input, value)| instance.set(input, *value))
-}
-
-/// Steps from zero to `stop`. Every row holds the inputs from its time on, and the outputs that the
-/// FMU shows with them.
-fn fly(
-    instance: &mut Instance,
-    model: &ModelDescription,
-    manoeuvre: &Manoeuvre,
-    step: f64,
-    stop: f64,
-) -> Result<Flown> {
-    let recorded = || model.with(Causality::Input).chain(model.with(Causality::Output));
-    let names = recorded().map(|variable| variable.name.clone());
-    let names = std::iter::once("time".to_string()).chain(names).collect();
-    let references: Vec<_> = recorded().map(|variable| variable.value_reference).collect();
-    let mut record = Record { names, rows: Vec::new() };
-    let mut add = |instance: &mut Instance, time: f64| -> Result<()> {
-        let mut row = vec![time];
-        row.extend(instance.get(&references)?);
-        record.rows.push(row);
-        Ok(())
-    };
-
-    let changes = manoeuvre.changes.iter().map(|(time, _)| *time);
-    let mut spent = Duration::ZERO;
-    let mut time = 0.0;
-    add(instance, time)?;
-    for next in communication_points(step, stop, changes) {
-        let started = Instant::now();
-        let outcome = instance.step(time, next - time)?;
-        spent += started.elapsed();
-        if let Step::Discarded(reached, reason) = outcome {
-            add(instance, reached)?;
-            return Ok(Flown { record, spent, discarded: Some(reason) });
-        }
-        time = next;
-        apply(instance, manoeuvre, time)?;
-        add(instance, time)?;
-    }
-    Ok(Flown { record, spent, discarded: None })
-}
-
-/// The ends of all steps: multiples of the step, the stop time, and every change of an input, so
-/// that the inputs are constant during each step.
-pub fn communication_points(step: f64, stop: f64, changes: impl Iterator<Item = f64>) -> Vec<f64> {
-    // 0.01 is no binary number: dividing by a whole number of steps per second gives the doubles
-    // nearest to 0.01, 0.02, ..., multiplying does not.
-    let rate = (1.0 / step).round();
-    let exact = 1.0 / rate == step;
-    let multiple = |n: f64| if exact { n / rate } else { n * step };
-    let count = (stop / step - SAME_INSTANT).ceil() as usize;
-    let mut points: Vec<f64> = changes.filter(|time| *time > 0.0 && *time < stop).collect();
-    let grid = (1..count).map(|n| multiple(n as f64)).chain([stop]);
-    let near = |a: f64, b: f64| (a - b).abs() < SAME_INSTANT * step;
-    let changes = points.clone();
-    points.extend(grid.filter(|time| !changes.iter().any(|change| near(*time, *change))));
-    points.sort_by(f64::total_cmp);
-    points
+/// What was flown: vehicle, what was set besides, manoeuvre.
+fn title(model: &ModelDescription, settings: &[Setting], input: &Path) -> String {
+    let set = |name: &str| settings.iter().find(|setting| setting.variable.name == name);
+    let vehicle = ["configuration", "aero"].into_iter().filter_map(|name| {
+        let variable = model.find(name)?;
+        let value = set(name).map_or(variable.start()?, |setting| setting.value);
+        let items = model.items(variable);
+        Some(items.iter().find(|item| f64::from(item.value) == value)?.name.clone())
+    });
+    let other =
+        |setting: &&Setting| !["configuration", "aero"].contains(&setting.variable.name.as_str());
+    let others = settings.iter().filter(other).map(|setting| setting.text.to_string());
+    let file = input.file_name().map(|name| name.to_string_lossy().into_owned());
+    vehicle.chain(others).chain(file).collect::<Vec<_>>().join(", ")
 }
 
 fn set_summary(settings: &[Setting]) -> String {
@@ -221,21 +156,4 @@ fn print_messages(instance: &Instance) -> Result<()> {
         say!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_end_on_the_grid_on_changes_and_at_the_stop_time() {
-        let points =
-            |step, stop, changes: &[f64]| communication_points(step, stop, changes.iter().copied());
-        assert_eq!(points(0.1, 0.3, &[]), [0.1, 0.2, 0.3]);
-        assert_eq!(points(0.2, 0.5, &[]), [0.2, 0.4, 0.5]);
-        assert_eq!(points(0.1, 0.3, &[0.0, 0.15, 0.2, 0.3, 7.0]), [0.1, 0.15, 0.2, 0.3]);
-        assert_eq!(points(0.01, 2.0, &[]).len(), 200);
-        assert_eq!(points(0.01, 2.0, &[])[34], 0.35);
-        assert_eq!(points(1.0, 0.5, &[]), [0.5]);
-    }
 }

@@ -132,6 +132,19 @@ impl Instance {
         self.check(call, status).with_context(|| format!("{} = {value}", variable.name))
     }
 
+    /// How inputs go on within the next step: their first derivatives.
+    pub fn set_slopes(&mut self, inputs: &[&Variable], slopes: &[f64]) -> Result<()> {
+        let references: Vec<_> = inputs.iter().map(|input| input.value_reference).collect();
+        let orders = vec![1; slopes.len()];
+        let (first, order, value) = (references.as_ptr(), orders.as_ptr(), slopes.as_ptr());
+        // SAFETY: the arrays are alive during the call; the count is that of the shortest.
+        let status = unsafe {
+            let count = references.len().min(slopes.len());
+            (self.functions.set_real_input_derivatives)(self.component, first, count, order, value)
+        };
+        self.check("fmi2SetRealInputDerivatives", status)
+    }
+
     /// Values of real variables.
     pub fn get(&mut self, references: &[c_uint]) -> Result<Vec<f64>> {
         let mut values = vec![0.0; references.len()];
@@ -277,6 +290,7 @@ functions! {
     set_integer: "fmi2SetInteger" fn(Component, *const c_uint, usize, *const c_int) -> c_int;
     set_boolean: "fmi2SetBoolean" fn(Component, *const c_uint, usize, *const c_int) -> c_int;
     get_real: "fmi2GetReal" fn(Component, *const c_uint, usize, *mut f64) -> c_int;
+    set_real_input_derivatives: "fmi2SetRealInputDerivatives" fn(Component, *const c_uint, usize, *const c_int, *const f64) -> c_int;
     do_step: "fmi2DoStep" fn(Component, f64, f64, c_int) -> c_int;
     get_real_status: "fmi2GetRealStatus" fn(Component, c_int, *mut f64) -> c_int;
     terminate: "fmi2Terminate" fn(Component) -> c_int;

@@ -152,6 +152,8 @@ pub struct Real {
 pub struct Enumeration {
     #[serde(rename = "@declaredType")]
     declared_type: Option<String>,
+    #[serde(rename = "@start")]
+    start: Option<i32>,
 }
 
 impl ModelDescription {
@@ -177,7 +179,8 @@ impl ModelDescription {
 
     /// The items of an enumeration; none for other kinds.
     pub fn items(&self, variable: &Variable) -> &[Item] {
-        let Kind::Enumeration(Enumeration { declared_type: Some(name) }) = &variable.kind else {
+        let Kind::Enumeration(Enumeration { declared_type: Some(name), .. }) = &variable.kind
+        else {
             return &[];
         };
         self.types
@@ -204,6 +207,14 @@ impl ModelDescription {
 }
 
 impl Variable {
+    /// Number that an enumeration starts with.
+    pub fn start(&self) -> Option<f64> {
+        match &self.kind {
+            Kind::Enumeration(enumeration) => enumeration.start.map(f64::from),
+            _ => None,
+        }
+    }
+
     /// Unit of a real variable; "1" if it has none.
     pub fn unit(&self) -> &str {
         match &self.kind {

@@ -1,5 +1,6 @@
-//! The figure of a flight: eight panels over a common time axis, for screen (SVG) and print (PNG).
+//! The figure of a flight: a panel for everything that moves, for screen (SVG) and print (PNG).
 
+use crate::curve::{Curve, dashes};
 use crate::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID, decimals, label};
 use crate::panels::{PANELS, Panel};
 use crate::record::Record;
@@ -10,79 +11,118 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::path::Path;
 
-/// Size in pixels at scale one.
-const SIZE: (u32, u32) = (1100, 1000);
-/// Room for the numbers of the vertical axis, pixels at scale one.
-const LEFT: u32 = 54;
+// Sizes in pixels at scale one. The text is large, so that it can be read on a phone.
+const WIDTH: u32 = 800;
+const ROW: u32 = 210;
+const HEAD: u32 = 30;
+/// Of a line of the title.
+const LINE: u32 = 24;
+const MARGIN: u32 = 6;
+/// Room for the numbers of the vertical axis.
+const LEFT: u32 = 66;
+/// Below the panels.
+const TIME: u32 = 22;
+const TEXT: u32 = 16;
+/// Most characters in a line of the title.
+const CHARACTERS: usize = 80;
 /// Most labels on a vertical axis.
-const LABELS: usize = 7;
+const LABELS: usize = 6;
+/// Columns of pixels of the PNG for one at scale one.
+const FINE: usize = 2;
 
 /// flight.svg and flight.png.
-pub fn figures(record: &Record, directory: &Path) -> Result<Files> {
-    figure::files(&Flight(record), SIZE, &directory.join("flight"))
-}
-
-struct Flight<'a>(&'a Record);
-
-impl Drawing for Flight<'_> {
-    fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B> {
-        draw_all(area, self.0, scale)
+pub fn figures(record: &Record, title: &str, directory: &Path) -> Result<Files> {
+    let title = lines(title, CHARACTERS);
+    let mut panels = moving(record, false);
+    if panels.is_empty() {
+        panels = moving(record, true);
     }
+    let rows = panels.len().div_ceil(2) as u32;
+    let height = 2 * MARGIN + LINE * title.len() as u32 + ROW * rows + TIME;
+    figure::files(&Flight { title, panels }, (WIDTH, height), &directory.join("flight"))
 }
 
-fn draw_all<B: DrawingBackend>(area: &Area<B>, record: &Record, scale: u32) -> Drawn<B> {
-    let margin = 6 * scale;
-    let inner = area.margin(margin, margin, margin, margin);
-    // The bottom panels carry the time axis and its name.
-    let (_, height) = inner.dim_in_pixel();
-    let axis = 22 * scale;
-    let row = (height - axis) / 4;
-    for (half, panels) in inner.split_evenly((1, 2)).iter().zip(PANELS) {
-        let cuts = [row, 2 * row, 3 * row].map(|y| y as i32);
-        for ((cell, panel), number) in
-            half.split_by_breakpoints([0; 0], cuts).iter().zip(panels).zip(1..)
-        {
-            draw_panel(cell, &panel, record, scale, number == 4)?;
+/// Panels with their curves: of what moves, or all.
+fn moving(record: &Record, all: bool) -> Vec<(Panel, Vec<Curve>)> {
+    PANELS
+        .into_iter()
+        .map(|panel| {
+            let mut curves = Curve::of(&panel, record, all);
+            curves.iter_mut().for_each(|curve| curve.thin(FINE * WIDTH as usize));
+            (panel, curves)
+        })
+        .filter(|(_, curves)| !curves.is_empty())
+        .collect()
+}
+
+/// Breaks a text after commas.
+fn lines(text: &str, most: usize) -> Vec<String> {
+    let mut lines = vec![String::new()];
+    for part in text.split_inclusive(", ") {
+        let line = lines.last_mut().filter(|line| {
+            let length = line.chars().count() + part.trim_end().chars().count();
+            line.is_empty() || length <= most
+        });
+        match line {
+            Some(line) => line.push_str(part),
+            None => lines.push(part.to_string()),
         }
     }
-    Ok(())
+    lines
+}
+
+struct Flight {
+    title: Vec<String>,
+    panels: Vec<(Panel, Vec<Curve>)>,
+}
+
+impl Drawing for Flight {
+    fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B> {
+        let inner = area.margin(MARGIN * scale, MARGIN * scale, MARGIN * scale, MARGIN * scale);
+        let text = (FONT, TEXT * scale).into_font().color(&BLACK);
+        let text = text.pos(Pos::new(HPos::Left, VPos::Center));
+        for (number, line) in self.title.iter().enumerate() {
+            let middle = (number as u32 * LINE + LINE / 2) * scale;
+            inner.draw_text(line.trim_end(), &text, ((MARGIN * scale) as i32, middle as i32))?;
+        }
+        let (_, body) = inner.split_vertically(LINE * self.title.len() as u32 * scale);
+        let rows = self.panels.chunks(2);
+        let last = rows.len() - 1;
+        let cuts = (1..=last as u32).map(|row| (ROW * row * scale) as i32);
+        let cells = body.split_by_breakpoints([0; 0], cuts.collect::<Vec<_>>());
+        for (number, (row, cell)) in rows.zip(&cells).enumerate() {
+            // One that is left over has the whole width.
+            for ((panel, curves), half) in row.iter().zip(cell.split_evenly((1, row.len()))) {
+                draw_panel(&half, panel, curves, scale, number == last)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 fn draw_panel<B: DrawingBackend>(
     area: &Area<B>,
     panel: &Panel,
-    record: &Record,
+    curves: &[Curve],
     scale: u32,
     last: bool,
 ) -> Drawn<B> {
-    let head = 26 * scale;
-    let (title, body) = area.split_vertically(head);
-    draw_head(&title, panel, scale)?;
-
-    let times: Vec<f64> = record.values(0).collect();
-    let curves: Vec<Vec<f64>> = panel
-        .curves
-        .iter()
-        .filter_map(|(name, _)| record.column(name))
-        .map(|column| {
-            let first = record.values(column).next().unwrap_or(0.0);
-            let zero = if panel.deviation { first } else { 0.0 };
-            record.values(column).map(|value| (value - zero) * panel.factor).collect()
-        })
-        .collect();
-    let [min, max] = range(curves.iter().flatten().copied(), panel.least);
-    let end = times.last().copied().unwrap_or(1.0);
+    let (title, body) = area.split_vertically(HEAD * scale);
+    draw_head(&title, panel, curves, scale)?;
+    let [min, max] = range(curves, panel.least);
+    let end = curves.iter().flat_map(|curve| curve.points.last()).map(|point| point.0);
+    let end = end.fold(0.0, f64::max);
 
     let mut chart = ChartBuilder::on(&body)
         .margin_right(14 * scale)
         .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
-        .set_label_area_size(LabelAreaPosition::Bottom, if last { 40 } else { 18 } * scale)
-        .build_cartesian_2d(0.0..end, min..max)?;
-    let decimals = decimals(max - min, LABELS);
-    let text = (FONT, 13 * scale).into_font().color(&BLACK);
+        .set_label_area_size(LabelAreaPosition::Bottom, if last { 22 + TIME } else { 22 } * scale)
+        .build_cartesian_2d(0.0..if end > 0.0 { end } else { 1.0 }, min..max)?;
+    let decimals = decimals(min..max, LABELS);
+    let text = (FONT, TEXT * scale).into_font().color(&BLACK);
     chart
         .configure_mesh()
-        .x_labels(9)
+        .x_labels(8)
         .y_labels(LABELS)
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(scale))
@@ -94,90 +134,62 @@ fn draw_panel<B: DrawingBackend>(
         .y_label_formatter(&|value| label(*value, decimals))
         .x_desc(if last { "time, s" } else { "" })
         .draw()?;
-    for (number, values) in curves.iter().enumerate().rev() {
-        let points = points(&times, values, panel.held);
-        draw_curve(&mut chart, points, number, scale)?;
+    for curve in curves.iter().rev() {
+        let style = COLOURS[curve.number].stroke_width(2 * scale);
+        let points = curve.points.iter().copied();
+        match curve.dashes(max - min) {
+            None => chart.draw_series(LineSeries::new(points, style))?,
+            Some((dash, gap)) => {
+                let series = DashedLineSeries::new(points, dash * scale, gap * scale, style);
+                chart.draw_series(series)?
+            }
+        };
     }
     Ok(())
 }
 
-type Chart<'a, B> = ChartContext<
-    'a,
-    B,
-    Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
->;
-
-/// The first curve is solid, the second dashed, the third dotted, so that they differ without
-/// colour.
-fn draw_curve<B: DrawingBackend>(
-    chart: &mut Chart<B>,
-    points: Vec<(f64, f64)>,
-    number: usize,
+/// Title on the left, legend of several curves on the right: above the curves, never over them.
+fn draw_head<B: DrawingBackend>(
+    area: &Area<B>,
+    panel: &Panel,
+    curves: &[Curve],
     scale: u32,
 ) -> Drawn<B> {
-    let style = COLOURS[number].stroke_width(2 * scale);
-    match dashes(number) {
-        None => chart.draw_series(LineSeries::new(points, style))?,
-        Some((dash, gap)) => {
-            let series = DashedLineSeries::new(points, dash * scale, gap * scale, style);
-            chart.draw_series(series)?
-        }
-    };
-    Ok(())
-}
-
-fn dashes(number: usize) -> Option<(u32, u32)> {
-    [None, Some((9, 4)), Some((3, 3))][number]
-}
-
-/// Title on the left, legend of several curves on the right: above the curves, never over them.
-fn draw_head<B: DrawingBackend>(area: &Area<B>, panel: &Panel, scale: u32) -> Drawn<B> {
     let (width, height) = area.dim_in_pixel();
     let (width, middle, unit) = (width as i32, height as i32 / 2, scale as i32);
     let middle = middle + 4 * unit;
-    let title = (FONT, 14 * scale).into_font().color(&BLACK);
+    let title = (FONT, TEXT * scale).into_font().color(&BLACK);
     let left = title.clone().pos(Pos::new(HPos::Left, VPos::Center));
-    area.draw_text(panel.title, &left, (LEFT as i32 * unit, middle))?;
+    area.draw_text(panel.title, &left, (MARGIN as i32 * unit, middle))?;
     if panel.curves.len() < 2 {
         return Ok(());
     }
     let mut x = width - 14 * unit;
-    for (number, (_, label)) in panel.curves.iter().enumerate().rev() {
-        let style = COLOURS[number].stroke_width(2 * scale);
-        let (length, _) = area.estimate_text_size(label, &title)?;
+    for curve in curves.iter().rev() {
+        let style = COLOURS[curve.number].stroke_width(2 * scale);
+        let (length, _) = area.estimate_text_size(curve.label, &title)?;
         let text = title.clone().pos(Pos::new(HPos::Right, VPos::Center));
-        area.draw_text(label, &text, (x, middle))?;
-        x -= length as i32 + 6 * unit;
-        let line = [(x - 26 * unit, middle), (x, middle)];
-        match dashes(number) {
+        area.draw_text(curve.label, &text, (x, middle))?;
+        x -= length as i32 + 4 * unit;
+        let line = [(x - 22 * unit, middle), (x, middle)];
+        match dashes(curve.number) {
             None => area.draw(&PathElement::new(line, style))?,
             Some((dash, gap)) => {
                 let (dash, gap) = (dash * scale, gap * scale);
                 area.draw(&DashedPathElement::new(line, dash, gap, style))?
             }
         }
-        x -= 26 * unit + 16 * unit;
+        x -= 22 * unit + 10 * unit;
     }
     Ok(())
 }
 
-/// Curve points; a held value is drawn with steps.
-fn points(times: &[f64], values: &[f64], held: bool) -> Vec<(f64, f64)> {
-    let mut points: Vec<(f64, f64)> = Vec::with_capacity(2 * times.len());
-    for (&time, &value) in times.iter().zip(values) {
-        if let (true, Some(&(_, before))) = (held, points.last()) {
-            points.push((time, before));
-        }
-        points.push((time, value));
-    }
-    points
-}
-
-/// Range with some air around the values, and never smaller than twice `least`.
-fn range(values: impl Iterator<Item = f64> + Clone, least: f64) -> [f64; 2] {
-    let min = values.clone().fold(f64::INFINITY, f64::min);
-    let max = values.fold(f64::NEG_INFINITY, f64::max);
-    let (min, max) = if min <= max { (min, max) } else { (0.0, 0.0) };
+/// Range with some air around the curves, and never smaller than twice `least`.
+fn range(curves: &[Curve], least: f64) -> [f64; 2] {
+    let [min, max] = curves
+        .iter()
+        .map(Curve::range)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], [c, d]| [a.min(c), b.max(d)]);
     let half = (0.55 * (max - min)).max(least);
     let middle = 0.5 * (min + max);
     [middle - half, middle + half]
@@ -189,7 +201,25 @@ mod tests {
 
     #[test]
     fn rounding_noise_is_not_blown_up() {
-        let [min, max] = range([1.0, 1.0 + 1e-15].into_iter(), 0.5);
+        let points = vec![(0.0, 1.0), (1.0, 1.0 + 1e-15)];
+        let [min, max] = range(&[Curve { number: 0, label: "", points }], 0.5);
         assert!(max - min > 0.99);
+    }
+
+    #[test]
+    fn a_long_title_breaks_after_commas() {
+        assert_eq!(lines("Rigid, mach0=9, a.csv", 80), ["Rigid, mach0=9, a.csv"]);
+        assert_eq!(lines("Rigid, mach0=9, a.csv", 14), ["Rigid, ", "mach0=9, a.csv"]);
+    }
+
+    #[test]
+    fn a_flight_of_many_rows_makes_a_small_picture() {
+        let names = ["time", "eta1", "eta2"].map(String::from).to_vec();
+        let wave = |n: i32, rate: f64| (f64::from(n) * rate).sin();
+        let rows = (0..200_000).map(|n| vec![f64::from(n) * 1e-3, wave(n, 0.3), wave(n, 0.7)]);
+        let record = Record { names, rows: rows.collect() };
+        for (file, content) in figures(&record, "many", Path::new("")).unwrap() {
+            assert!(content.len() < 1_000_000, "{}: {} bytes", file.display(), content.len());
+        }
     }
 }

@@ -15,7 +15,16 @@ pub struct Setting<'a> {
 
 /// Reads all `--set` options.
 pub fn parse<'a>(model: &'a ModelDescription, texts: &'a [String]) -> Result<Vec<Setting<'a>>> {
-    texts.iter().map(|text| parse_one(model, text)).collect()
+    let mut settings: Vec<Setting> = Vec::new();
+    for text in texts {
+        let new = parse_one(model, text)?;
+        let same = |known: &&Setting| known.variable.name == new.variable.name;
+        if let Some(known) = settings.iter().find(same) {
+            bail!("--set {text}: {} is there twice, see --set {}", new.variable.name, known.text);
+        }
+        settings.push(new);
+    }
+    Ok(settings)
 }
 
 fn parse_one<'a>(model: &'a ModelDescription, text: &'a str) -> Result<Setting<'a>> {

@@ -67,6 +67,14 @@ fn settings_are_refused_with_what_would_be_accepted() {
 }
 
 #[test]
+fn a_parameter_that_is_set_twice_is_refused() {
+    let trim = ahv(&["trim", "--set", "mach0=8", "--set", "gamma0=0", "--set", "mach0=9"]);
+    assert!(!trim.ok);
+    let expected = "error: --set mach0=9: mach0 is there twice, see --set mach0=8";
+    assert!(trim.err.starts_with(expected), "{}", trim.err);
+}
+
+#[test]
 fn impossible_trim_names_the_limit() {
     let trim = ahv(&["trim", "--set", "altitude0=60000"]);
     assert!(!trim.ok);

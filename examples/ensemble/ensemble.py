@@ -7,7 +7,7 @@ only what is missing is flown.
 from __future__ import annotations
 
 import argparse
-import json
+import hashlib
 import logging
 import re
 import sys
@@ -23,7 +23,6 @@ sys.path[:0] = [str(HERE), str(LOOP)]
 try:
     import numpy as np
     import pyarrow as pa
-    import pyarrow.parquet as pq
     from dask.distributed import Client, LocalCluster, as_completed
     from fmpy import extract
     from scipy.stats import qmc
@@ -32,6 +31,7 @@ try:
     import pictures
     from batch import HISTORIES, MARGINS, NUMBERS, SAMPLE_EVERY, Task, fly_all
     from flight import wanted
+    from parts import AnotherEnsemble, Parts, claim
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -110,14 +110,11 @@ def connect(scheduler: str | None, workers: int | None) -> Client:
     return client
 
 
-def part(folder: Path, number: int) -> Path:
-    """File of a batch."""
-    return folder / f"part-{number:06}.parquet"
-
-
-def fly(client: Client, tasks: dict[int, Task], fmu: bytes, folder: Path) -> Iterator[str]:
-    """Fly the batches and write their parts; yields an error, or nothing, for each."""
-    modules = folder.parent / "modules.zip"
+def fly(
+    client: Client, tasks: dict[int, Task], fmu: bytes, parts: Parts
+) -> Iterator[tuple[int, pa.Table | str]]:
+    """Fly the batches and write their parts; yields for each its number and table, or an error."""
+    modules = parts.folder.parent / "modules.zip"
     with zipfile.ZipFile(modules, "w") as archive:
         for module in MODULES:
             archive.write(module, module.name)
@@ -130,16 +127,16 @@ def fly(client: Client, tasks: dict[int, Task], fmu: bytes, folder: Path) -> Ite
         for number, task in tasks.items()
     }
     for future in as_completed(futures):
+        number = futures[future]
         if future.status != "finished":
             # Without a scheduler nobody knows an exception.
             why = future.exception() or f"{future.status}: the scheduler is gone"
-            yield f"batch {futures[future]}: {why}"
+            yield number, f"batch {number}: {why}"
             continue
-        target = part(folder, futures[future])
-        pq.write_table(pa.Table.from_pylist(future.result(), SCHEMA), target.with_suffix(".new"))
-        target.with_suffix(".new").rename(target)
+        table = pa.Table.from_pylist(future.result(), SCHEMA)
+        parts.write(number, table)
         future.release()
-        yield ""
+        yield number, table
 
 
 def bar(done: int, total: int, since: float) -> None:
@@ -149,14 +146,6 @@ def bar(done: int, total: int, since: float) -> None:
     left = seconds / done * (total - done) if done else 0.0
     line = f"[{'#' * filled}{'.' * (40 - filled)}] {done}/{total} batches, {left:5.0f} s left"
     print(f"\r{line}", end="", file=sys.stderr, flush=True)
-
-
-def same_as_before(folder: Path, what: dict[str, object]) -> None:
-    """Refuse to mix two ensembles."""
-    said, text = folder / "ensemble.json", json.dumps(what, indent=1)
-    if said.exists() and said.read_text(encoding="utf-8") != text:
-        sys.exit(f"error: {folder} holds another ensemble ({said}): give another --output")
-    said.write_text(text, encoding="utf-8")
 
 
 def summary(table: pa.Table) -> str:
@@ -221,53 +210,64 @@ def main() -> None:
     options = parser.parse_args()
     if not options.fmu.is_file():
         sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
-    folder = options.output / "flights"
-    folder.mkdir(parents=True, exist_ok=True)
-    same_as_before(
-        options.output,
-        {"flights": options.flights, "stop_s": options.stop, "seed": options.seed},
-    )
-
+    fmu = options.fmu.read_bytes()
     law = design.design(design.model(extract(str(options.fmu))))
     manoeuvre = np.genfromtxt(LOOP / "manoeuvre.csv", delimiter=",", names=True)
     commands = wanted(manoeuvre, options.stop, design.PERIOD_S)
     vehicles = sample(options.flights, options.seed)
     batches = [vehicles[i : i + BATCH] for i in range(0, len(vehicles), BATCH)]
+    what = {
+        "flights": options.flights,
+        "stop_s": options.stop,
+        "seed": options.seed,
+        "batch": BATCH,
+        "fmu": hashlib.sha256(fmu).hexdigest(),
+        "commands": hashlib.sha256(commands.tobytes()).hexdigest(),
+    }
+    try:
+        law, identity = claim(options.output, what, law)
+    except AnotherEnsemble as other:
+        sys.exit(f"error: {other}: give another --output")
+    parts = Parts(options.output / "flights", identity, SCHEMA)
+    tables, said = parts.read(batches)
+    for line in said:
+        print(line, file=sys.stderr)
     tasks = {
         number: Task(b"", law, commands, batch)
         for number, batch in enumerate(batches)
-        if not part(folder, number).exists()
+        if number not in tables
     }
-    kept = len(batches) - len(tasks)
-    print(f"{len(vehicles)} flights of {options.stop:g} s; {kept} of {len(batches)} batches kept")
+    print(
+        f"{len(vehicles)} flights of {options.stop:g} s; "
+        f"{len(tables)} of {len(batches)} batches kept"
+    )
 
     failures = []
     if tasks:
         since = time.monotonic()
         with connect(options.scheduler, options.workers) as client:
             bar(0, len(tasks), since)
-            for done, failure in enumerate(
-                fly(client, tasks, options.fmu.read_bytes(), folder), start=1
-            ):
+            for done, (number, flown) in enumerate(fly(client, tasks, fmu, parts), start=1):
                 bar(done, len(tasks), since)
-                failures += [failure] if failure else []
+                if isinstance(flown, str):
+                    failures.append(flown)
+                else:
+                    tables[number] = flown
         seconds = time.monotonic() - since
-        flown = sum(
-            len(task.vehicles) for number, task in tasks.items() if part(folder, number).exists()
-        )
-        print(f"\n{flown} flights in {seconds:.0f} s: {flown / seconds:.1f} per second")
+        count = sum(len(task.vehicles) for number, task in tasks.items() if number in tables)
+        print(f"\n{count} flights in {seconds:.0f} s: {count / seconds:.1f} per second")
     lost = (
         f"error: {len(failures)} of {len(batches)} batches are missing: run again to fly them\n"
         + "\n".join(failures[:SAID])
     )
-    if len(failures) == len(batches):
+    if not tables:
         sys.exit(lost)
-    table = pq.read_table(folder)
+    table = pa.concat_tables(tables[number] for number in sorted(tables))
     print(summary(table))
     every_s = SAMPLE_EVERY * design.PERIOD_S
     pictures.envelope(table, commands[::SAMPLE_EVERY], every_s, options.output / "envelope.png")
     pictures.margins(table, options.output / "margins.png")
-    print(f"{folder}, {options.output / 'envelope.png'}, {options.output / 'margins.png'}")
+    print(f"{parts.folder}, {options.output / 'envelope.png'}, {options.output / 'margins.png'}")
     if failures:
         sys.exit(lost)
 

@@ -25,7 +25,7 @@ def padded(table: pa.Table, column: str) -> np.ndarray:
 
 def envelope(table: pa.Table, commands: np.ndarray, every_s: float, path: Path) -> None:
     """Percentiles of V and gamma against time. `commands`: (steps, 2), one per `every_s`."""
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(7.5, 3.2), layout="constrained")
     speed = padded(table, "V_m_per_s")
     panels = [
         (speed - speed[:, :1], commands[:, 0], "change of speed, m/s"),
@@ -51,21 +51,37 @@ def margins(table: pa.Table, path: Path) -> None:
     """Distribution of the phase margin, and where the unstable vehicles are."""
     table = table.filter(table["trimmed"])
     phase = table["phase_deg"].to_numpy().astype(float)
-    frequency = table["slosh_frequency"].to_numpy()
-    damping = table["slosh_damping"].to_numpy()
     unstable = np.isnan(phase)
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3.2), layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(7.5, 3.4), layout="constrained")
     axes[0].hist(phase[~unstable], bins=np.arange(0, 95, 2.5), color="C0")
-    axes[0].set_xlabel(f"phase margin, deg; {100 * unstable.mean():.1f} % unstable, not shown")
+    axes[0].set_title(f"stable loops: {100 - 100 * unstable.mean():.1f} %", fontsize=11)
+    axes[0].set_xlabel("phase margin, deg")
     axes[0].set_ylabel("vehicles")
-    dots = axes[1].scatter(
-        frequency[~unstable], damping[~unstable], c=phase[~unstable], s=3, vmin=0, vmax=60
-    )
-    axes[1].scatter(frequency[unstable], damping[unstable], c="r", s=3, label="unstable")
-    axes[1].set_yscale("log")
-    axes[1].set_xlabel("slosh_frequency, rad/s")
-    axes[1].set_ylabel("slosh_damping")
-    axes[1].legend(fontsize=8, loc="upper right")
-    figure.colorbar(dots, ax=axes[1], label="phase margin, deg")
+    shares(axes[1], table, unstable)
     figure.savefig(path, dpi=110)
     plt.close(figure)
+
+
+def shares(axis: plt.Axes, table: pa.Table, unstable: np.ndarray) -> None:
+    """Unstable loops in per cent, written into cells of slosh frequency and damping."""
+    places = [table[name].to_numpy() for name in ("slosh_frequency", "slosh_damping")]
+    edges = [np.linspace(4, 12, 9), np.geomspace(0.005, 0.1, 7)]
+    count, lost = (
+        np.histogram2d(*(place[mask] for place in places), bins=edges)[0]
+        for mask in (np.full_like(unstable, True), unstable)
+    )
+    share = 100 * np.divide(lost, count, out=np.full_like(count, np.nan), where=count > 0)
+    # Grey alone: the numbers say it, and no colour has to be told from another.
+    axis.pcolormesh(*edges, share.T, cmap="Greys", vmin=0, vmax=130, edgecolors="w", lw=0.5)
+    middles = (edges[0][1:] + edges[0][:-1]) / 2, np.sqrt(edges[1][1:] * edges[1][:-1])
+    for (i, j), value in np.ndenumerate(share):
+        if np.isfinite(value):
+            colour = "w" if value > 65 else "k"
+            place = middles[0][i], middles[1][j]
+            axis.text(*place, f"{value:.0f}", color=colour, ha="center", va="center", fontsize=10)
+    axis.set_title("unstable loops, % of the vehicles in a cell", fontsize=11)
+    axis.set_yscale("log")
+    axis.set_yticks([0.005, 0.01, 0.02, 0.05, 0.1], ["0.5", "1", "2", "5", "10"])
+    axis.minorticks_off()
+    axis.set_xlabel("slosh frequency, rad/s")
+    axis.set_ylabel("slosh damping, %")

@@ -50,10 +50,12 @@ pub enum Interface {
 pub struct Instance {
     interface: Interface,
     /// As it was when instantiated: what a reset goes back to.
-    pristine: Flight,
+    pub(super) pristine: Flight,
     pub(super) flight: Flight,
     pub(super) life: Life,
     logging_on: bool,
+    /// Whether it was said that an input is beyond its limit.
+    pub(super) limit_said: bool,
     /// Messages for the master.
     pub log: Log,
 }
@@ -67,7 +69,15 @@ impl Instance {
         let pristine = Flight::new()?;
         let flight = pristine.clone();
         let log = Log::new(logging_on);
-        Ok(Self { interface, pristine, flight, life: Life::NEW, logging_on, log })
+        Ok(Self {
+            interface,
+            pristine,
+            flight,
+            life: Life::NEW,
+            logging_on,
+            limit_said: false,
+            log,
+        })
     }
 
     /// State in the standard's table.
@@ -155,6 +165,8 @@ impl Instance {
                 )
             });
         }
+        self.say_ignored();
+        self.say_limit("fmi2ExitInitializationMode");
         Ok(())
     }
 
@@ -174,6 +186,7 @@ impl Instance {
     pub fn reset(&mut self) -> Outcome {
         self.flight = self.pristine.clone();
         self.life = Life::NEW;
+        self.limit_said = false;
         self.log.switch(false, &[])?;
         self.log.switch(self.logging_on, &[])
     }
@@ -223,7 +236,10 @@ impl Instance {
             return Ok(());
         }
         match self.flight.advance(end) {
-            Ok(()) => Ok(()),
+            Ok(()) => {
+                self.say_limit("fmi2DoStep");
+                Ok(())
+            }
             // A part of the step was flown, so the status is discard. The integrator chose its own
             // steps down to the last valid instant: a shorter communication step gets no further,
             // so the instance asks for the end of the simulation in both cases.

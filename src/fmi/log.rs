@@ -39,7 +39,9 @@ impl Category {
     /// Description for users.
     pub const fn description(self) -> &'static str {
         match self {
-            Self::Events => "The initial state that was found",
+            Self::Events => {
+                "The initial state that was found, parameters without effect, the first input beyond its limit"
+            }
             Self::StatusDiscard => "Steps that ended early, and why",
             Self::StatusError => "Refused calls, and why; always logged",
             Self::StatusFatal => "Internal errors; always logged",
@@ -130,9 +132,14 @@ impl Log {
         Ok(())
     }
 
+    /// Whether messages of this status are wanted.
+    pub fn wants(&self, status: Status) -> bool {
+        (self.enabled | Category::ALWAYS) & Category::of(status).bit() != 0
+    }
+
     /// Queues a message if its category is wanted; the text is not even made if not.
     pub fn push(&mut self, status: Status, text: impl FnOnce() -> String) {
-        if (self.enabled | Category::ALWAYS) & Category::of(status).bit() != 0 {
+        if self.wants(status) {
             self.waiting.push(Message::new(status, &text()));
         }
     }

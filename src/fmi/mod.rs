@@ -22,6 +22,7 @@
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
 
 mod abi;
+mod advice;
 pub mod exchange;
 pub mod failure;
 pub mod guard;

@@ -152,6 +152,7 @@ impl Instance {
         for (i, &reference) in references.iter().enumerate() {
             variable(reference, asked)?.set(&mut self.flight, value(i))?;
         }
+        self.say_limit("fmi2SetReal");
         Ok(())
     }
 

@@ -29,8 +29,8 @@ pub fn zip(files: &BTreeMap<String, Vec<u8>>) -> Result<Vec<u8>> {
 /// Names of the files in a zip.
 pub fn names(file: &Path) -> Result<Vec<String>> {
     let mut zip = ZipArchive::new(Cursor::new(read(file, BINARY)?))?;
-    let name = |index| Ok(zip.by_index_raw(index)?.name()?.into_owned());
-    (0..zip.len()).map(name).collect()
+    let all = 0..zip.len();
+    all.map(|index| Ok(zip.by_index_raw(index)?.name()?.into_owned())).collect()
 }
 
 #[cfg(test)]

@@ -2,12 +2,12 @@
 
 use super::Files;
 use crate::describe::MODEL_IDENTIFIER;
-use crate::fly::{apply, communication_points, positive};
+use crate::fly::positive;
 use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
-use crate::master::{Instance, Step};
+use crate::master::Instance;
 use crate::model_description::Causality;
-use crate::record::Record;
+use crate::pilot;
 use crate::workspace::{TEXT, read, root};
 use anyhow::{Result, bail};
 
@@ -18,8 +18,8 @@ pub fn path(ending: &str) -> String {
 
 /// Flies the example's doublet with an FMU; files by their names.
 ///
-/// The input file is the example itself: it has a row just before each jump, so a tool that
-/// interpolates flies the same as one that holds a value.
+/// The input file is the example itself. Its jumps are doubled rows at multiples of the step, so every
+/// tool flies the same.
 pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let (model, default) = (&fmu.model, &fmu.model.experiment);
     let step = positive("step size", default.step_size)?;
@@ -30,36 +30,21 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
 
     let mut instance = Instance::new(fmu)?;
     instance.set_up(0.0, stop, tolerance)?;
-    apply(&mut instance, &manoeuvre, 0.0)?;
-    instance.initialise()?;
-
-    let outputs: Vec<_> = model.with(Causality::Output).collect();
-    let references: Vec<_> = outputs.iter().map(|output| output.value_reference).collect();
-    let names = outputs.iter().map(|output| output.name.clone());
-    let names = std::iter::once("time".to_string()).chain(names).collect();
-    let mut record = Record { names, rows: Vec::new() };
-    let mut add = |instance: &mut Instance, time: f64| -> Result<()> {
-        record.rows.push([&[time], instance.get(&references)?.as_slice()].concat());
-        Ok(())
-    };
-    let mut time = 0.0;
-    add(&mut instance, time)?;
-    for next in communication_points(step, stop, std::iter::empty()) {
-        // A row has the outputs at the end of a step, before the inputs of the next.
-        apply(&mut instance, &manoeuvre, time)?;
-        if let Step::Discarded(reached, reason) = instance.step(time, next - time)? {
-            bail!("the reference flight ends at {reached} s: {reason}");
-        }
-        time = next;
-        add(&mut instance, time)?;
+    let points = pilot::communication_points(step, stop, manoeuvre.times())?;
+    let outputs = model.with(Causality::Output);
+    let mut flown = pilot::fly(&mut instance, &manoeuvre, outputs, &points)?;
+    if let Some(reason) = flown.discarded {
+        bail!("the reference flight ends early: {reason}");
     }
+    // A row has the outputs at the end of a step, before an input jumps.
+    flown.record.rows.dedup_by_key(|row| row[0]);
     instance.terminate()?;
 
     let options =
         format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{step:?}\nRelTol,{tolerance:?}\n");
     Ok(Files::from([
         (path("in.csv"), read(&input, TEXT)?),
-        (path("ref.csv"), record.csv()?.into_bytes()),
+        (path("ref.csv"), flown.record.csv()?.into_bytes()),
         (path("ref.opt"), options.into_bytes()),
     ]))
 }

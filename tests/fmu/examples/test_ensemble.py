@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
+import shutil
 import signal
 import socket
 import subprocess
 import sys
 import time
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.parquet as pq
 import pytest
 from dask.distributed import Client, LocalCluster
 
@@ -22,6 +24,8 @@ import ensemble
 from batch import Task, fly_all
 from flight import wanted
 from harness import Package
+from law import Law
+from parts import AnotherEnsemble, Parts, claim
 
 SCRIPT = Path(ensemble.__file__)
 FLIGHTS, STOP_S = 100, 4.0
@@ -44,7 +48,12 @@ def run(package: Package, output: Path, *options: str) -> subprocess.CompletedPr
 
 def rows(output: Path) -> list[dict[str, object]]:
     """Flights in the order of the sample."""
-    return pq.read_table(output / "flights").to_pylist()
+    vehicles = ensemble.sample(FLIGHTS, 1)
+    batches = [vehicles[i : i + ensemble.BATCH] for i in range(0, FLIGHTS, ensemble.BATCH)]
+    said = output / "ensemble.json", output / "law.json"
+    identity = hashlib.sha256(b"".join(path.read_bytes() for path in said)).hexdigest().encode()
+    tables, _ = Parts(output / "flights", identity, ensemble.SCHEMA).read(batches)
+    return [row for number in sorted(tables) for row in tables[number].to_pylist()]
 
 
 @pytest.fixture(scope="module")
@@ -104,18 +113,60 @@ def test_a_flight_is_the_same_on_any_worker(package: Package, flown: Path) -> No
 def test_running_again_flies_only_what_is_missing(
     package: Package, cluster: LocalCluster, flown: Path
 ) -> None:
+    """A part that is gone or cut off is flown again; files of other origin are named, not read."""
     before = rows(flown)
-    ensemble.part(flown / "flights", 2).unlink()
+    folder = flown / "flights"
+    (folder / "part-000002.parquet").unlink()
+    cut = folder / "part-000001.parquet"
+    cut.write_bytes(cut.read_bytes()[:-100])
+    (folder / "part-000000.new").write_bytes(b"half")
+    shutil.copy(folder / "part-000000.parquet", folder / "part-000007.parquet")
     again = run(package, flown, "--scheduler", cluster.scheduler_address)
     assert again.returncode == 0, again.stderr
-    assert "3 of 4 batches kept" in again.stdout
-    assert "25 flights in" in again.stdout
+    assert "2 of 4 batches kept" in again.stdout
+    assert "50 flights in" in again.stdout and f"{FLIGHTS} vehicles" in again.stdout
+    assert "part-000001.parquet is damaged, its flights are flown again" in again.stderr
+    others = "not of this ensemble: part-000000.new, part-000007.parquet"
+    assert others in again.stderr
     assert len(rows(flown)) == len(before)
 
 
-def test_two_ensembles_are_not_mixed(package: Package, flown: Path) -> None:
+def test_two_ensembles_are_not_mixed(package: Package, flown: Path, tmp_path: Path) -> None:
     other = run(package, flown, "--seed", "2")
-    assert other.returncode == 1 and "holds another ensemble" in other.stderr
+    assert other.returncode == 1 and "holds another ensemble; differing: seed" in other.stderr
+    # Another FMU, by a byte that says nothing.
+    fmu = tmp_path / "ahv.fmu"
+    shutil.copy(package.path, fmu)
+    with zipfile.ZipFile(fmu, "a") as archive:
+        archive.writestr("extra/note.txt", "another")
+    other = run(package, flown, "--fmu", str(fmu))
+    assert other.returncode == 1 and "holds another ensemble; differing: fmu" in other.stderr
+
+
+def test_the_law_belongs_to_the_ensemble(package: Package, tmp_path: Path) -> None:
+    """One that differs by rounding goes on as the law that is there; another one is refused."""
+    law = design.design(design.model(str(package.folder)))
+    first, identity = claim(tmp_path, {"seed": 1}, law)
+    rounded = Law(**vars(law) | {"K": law.K * (1.0 + 1e-12)})
+    again, same = claim(tmp_path, {"seed": 1}, rounded)
+    assert same == identity and np.array_equal(again.K, first.K)
+    with pytest.raises(AnotherEnsemble, match="differing: law"):
+        claim(tmp_path, {"seed": 1}, Law(**vars(law) | {"K": law.K * 1.01}))
+
+
+def test_a_part_of_another_ensemble_is_not_read(tmp_path: Path) -> None:
+    """The same batch, flown with another law or FMU, or other vehicles with the same number."""
+    vehicles = ensemble.sample(4, 1)
+    rows = [dict.fromkeys(ensemble.SCHEMA.names) | vehicle for vehicle in vehicles]
+    table = pa.Table.from_pylist(rows, ensemble.SCHEMA)
+    mine = Parts(tmp_path / "flights", b"mine", ensemble.SCHEMA)
+    mine.write(0, table)
+    assert mine.read([vehicles])[0][0].equals(table)
+    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["part-000000.parquet"]
+    theirs = Parts(tmp_path / "flights", b"theirs", ensemble.SCHEMA)
+    for parts, batch in ((theirs, vehicles), (mine, ensemble.sample(4, 2))):
+        tables, (said,) = parts.read([batch])
+        assert not tables and "is of another ensemble, its flights are flown again" in said
 
 
 def test_an_unreachable_scheduler_is_named(

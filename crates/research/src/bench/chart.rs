@@ -1,30 +1,21 @@
 //! The picture: error against the least time of the repetitions, both logarithmic.
 
 use super::precision::{OURS, Point};
-use ahv_tool::figure::{self, Area, Drawing, Drawn, FONT, FRAME, GRID};
+use ahv_tool::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID};
 use ahv_tool::workspace::Files;
 use anyhow::Result;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use std::path::Path;
 
-/// Size in pixels at scale one.
-const SIZE: (u32, u32) = (900, 560);
-/// Room for the legend on the right, pixels at scale one.
-const LEGEND: u32 = 190;
-/// As many as there are methods: figure's five, and greys.
-const COLOURS: [RGBColor; 10] = [
-    figure::COLOURS[0],
-    figure::COLOURS[4],
-    figure::COLOURS[1],
-    figure::COLOURS[2],
-    figure::COLOURS[3],
-    RGBColor(120, 120, 120),
-    RGBColor(0, 0, 0),
-    RGBColor(170, 140, 90),
-    RGBColor(90, 170, 140),
-    RGBColor(200, 120, 200),
-];
+// Sizes in pixels at scale one.
+const SIZE: (u32, u32) = (800, 560);
+const TEXT: u32 = 15;
+/// Room for the legend on the right.
+const LEGEND: u32 = 218;
+/// How the names of methods of one origin begin: they share a colour.
+const ORIGINS: [&[&str]; 5] =
+    [&[OURS], &["ode_solvers"], &["CVODE", "ARKODE"], &["SciPy"], &["diffsol"]];
 
 /// precision.svg and precision.png.
 pub fn files(points: &[Point], directory: &Path) -> Result<Files> {
@@ -50,7 +41,7 @@ fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
 fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Drawn<B> {
     let x = decades(points.iter().map(|point| point.seconds.least));
     let y = decades(points.iter().map(|point| point.error));
-    let text = (FONT, 13 * scale).into_font().color(&BLACK);
+    let text = (FONT, TEXT * scale).into_font().color(&BLACK);
     let (width, _) = area.dim_in_pixel();
     let (left, legend) = area.split_horizontally(width - LEGEND * scale);
     let mut chart = ChartBuilder::on(&left)
@@ -74,25 +65,50 @@ fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Draw
         .draw()?;
     let mut methods: Vec<_> = points.iter().map(|point| &point.method).collect();
     methods.dedup();
+    methods.sort_by_key(|method| origin(method));
+    let mut drawn = [0; ORIGINS.len()];
     for (number, method) in methods.into_iter().enumerate() {
-        let colour = COLOURS[number % COLOURS.len()];
+        let origin = origin(method);
+        let (colour, kind) = (COLOURS[origin], drawn[origin]);
+        drawn[origin] += 1;
         let own = points.iter().filter(|point| point.method == *method);
         let own: Vec<_> = own.map(|point| (point.seconds.least, point.error)).collect();
         let line = colour.stroke_width(if method.starts_with(OURS) { 4 } else { 2 } * scale);
         chart.draw_series(LineSeries::new(own.clone(), line))?;
-        let y = ((40 + 24 * number as u32) * scale) as i32;
-        let (start, end) = (2 * scale as i32, 26 * scale as i32);
-        legend.draw(&PathElement::new([(start, y), (end, y)], line))?;
-        // Where the colours begin anew, the dots are hollow.
-        let fill = if number < COLOURS.len() { colour } else { WHITE };
-        for (radius, colour) in [(4, colour), (2, fill)] {
-            let dot = |&place: &_| Circle::new(place, radius * scale, colour.filled());
-            chart.draw_series(own.iter().map(dot))?;
-            let middle = ((start + end) / 2, y);
-            legend.draw(&Circle::new(middle, radius * scale, colour.filled()))?;
+        for place in &own {
+            mark(area, chart.backend_coord(place), kind, colour, scale)?;
         }
+        let y = ((40 + 26 * number as u32) * scale) as i32;
+        let (start, end) = (2 * scale as i32, 30 * scale as i32);
+        legend.draw(&PathElement::new([(start, y), (end, y)], line))?;
+        mark(&legend, ((start + end) / 2, y), kind, colour, scale)?;
         let style = text.clone().pos(Pos::new(HPos::Left, VPos::Center));
         legend.draw_text(method, &style, (end + 6 * scale as i32, y))?;
+    }
+    Ok(())
+}
+
+/// Position among the origins.
+fn origin(method: &str) -> usize {
+    let begins = |names: &&[&str]| names.iter().any(|name| method.starts_with(name));
+    ORIGINS.iter().position(begins).unwrap_or(ORIGINS.len() - 1)
+}
+
+/// A full or a hollow disc, a full or a hollow square: methods of one colour differ by them.
+fn mark<B: DrawingBackend>(
+    area: &Area<B>,
+    (x, y): (i32, i32),
+    kind: usize,
+    colour: RGBColor,
+    scale: u32,
+) -> Drawn<B> {
+    let fill = if kind.is_multiple_of(2) { colour } else { WHITE };
+    for (size, colour) in [(5 * scale as i32, colour), (3 * scale as i32, fill)] {
+        let style = colour.filled();
+        match kind {
+            0 | 1 => area.draw(&Circle::new((x, y), size, style))?,
+            _ => area.draw(&Rectangle::new([(x - size, y - size), (x + size, y + size)], style))?,
+        }
     }
     Ok(())
 }

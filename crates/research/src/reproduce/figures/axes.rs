@@ -92,8 +92,8 @@ impl Axes<'_> {
         let (area, x, y) = match kind {
             Scale::Linear => {
                 let mut chart = chart.build_cartesian_2d(x0..x1, y0..y1)?;
-                let [x, y] = [(x1 - x0, x_labels), (y1 - y0, LABELS)]
-                    .map(|(width, labels)| decimals(width, labels));
+                let [x, y] = [(x0..x1, x_labels), (y0..y1, LABELS)]
+                    .map(|(range, labels)| decimals(range, labels));
                 let words = |decimals: usize| {
                     move |value: &f64| label(*value, decimals).replace('-', "\u{2212}")
                 };

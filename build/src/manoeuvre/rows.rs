@@ -1,0 +1,222 @@
+//! The lines of a manoeuvre.
+
+use super::columns::{Column, Role, columns, example};
+use super::{Manoeuvre, Row};
+use crate::model_description::ModelDescription;
+use ahv::short::short;
+use anyhow::{Context, Result, bail};
+
+/// Longest field that a message repeats, characters.
+const QUOTED: usize = 40;
+
+/// Reads a text; `file` is its name in messages. Empty lines and those that start with `#` count for
+/// nothing.
+pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<Manoeuvre<'a>> {
+    let text = text.replace("\r\n", "\n");
+    let counts = |line: &str| !line.trim_matches([' ', '\t', ',', ';']).is_empty();
+    let (numbers, lines): (Vec<usize>, Vec<&str>) = (1..)
+        .zip(text.split(['\n', '\r']))
+        .filter(|(_, line)| counts(line) && !line.trim_start().starts_with('#'))
+        .unzip();
+    let Some(header) = lines.first() else {
+        bail!("{file}: no header; the first line has to be like `{}`", example(model));
+    };
+    let joined = lines.join("\n");
+    let mut reader = csv::ReaderBuilder::new()
+        .has_headers(false)
+        .flexible(true)
+        .delimiter(delimiter(header))
+        .trim(csv::Trim::All)
+        .from_reader(joined.as_bytes());
+    let mut records = reader.records().zip(numbers).map(|(record, number)| {
+        let at = format!("{file}, line {number}");
+        let record = record.with_context(|| at.clone())?;
+        if record.iter().any(|field| field.contains('\n')) {
+            bail!("{at}: a quotation mark opens and is not closed on this line");
+        }
+        Ok((record, at))
+    });
+    let Some(first) = records.next() else { bail!("{file}: no header") };
+    let (header, at) = first?;
+    let columns = columns(header.iter(), &at, model)?;
+
+    let mut rows: Vec<Row> = Vec::new();
+    let mut mark = None;
+    for record in records {
+        let (record, at) = record?;
+        let row = row(&record, &at, &columns, &mut mark)?;
+        follows(&row, &rows, &at)?;
+        rows.push(row);
+    }
+    let inputs = columns.iter().filter_map(|column| match column.role {
+        Role::Input { variable, .. } => Some(variable),
+        _ => None,
+    });
+    let ignored = columns.iter().filter(|column| matches!(column.role, Role::Ignored));
+    let name = |column: &Column| match column.name.as_str() {
+        "" => "one without a name".to_string(),
+        name => name.to_string(),
+    };
+    Ok(Manoeuvre { inputs: inputs.collect(), rows, ignored: ignored.map(name).collect() })
+}
+
+/// What separates the columns of a header: the most frequent of the three, outside of quotes.
+fn delimiter(header: &str) -> u8 {
+    let count = |wanted: &u8| {
+        let mut inside = false;
+        let bytes = header.bytes().filter(|byte| {
+            inside ^= *byte == b'"';
+            !inside && byte == wanted
+        });
+        bytes.count()
+    };
+    // Of several that are equally frequent, the last.
+    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+}
+
+/// Times do not decrease, and no instant has more than a value before and one after it.
+fn follows(row: &Row, rows: &[Row], at: &str) -> Result<()> {
+    let time = row.time;
+    match rows {
+        [.., last] if time < last.time => bail!(
+            "{at}, column time: {} s follows {} s; times have to increase, or stand twice for a jump",
+            short(time),
+            short(last.time)
+        ),
+        [.., first, _] if time == first.time => bail!(
+            "{at}, column time: a third row for {} s; a jump has two, the values before and after it",
+            short(time)
+        ),
+        _ => Ok(()),
+    }
+}
+
+/// `mark` is the decimal mark of the file, once one was seen.
+fn row(
+    record: &csv::StringRecord,
+    at: &str,
+    columns: &[Column],
+    mark: &mut Option<char>,
+) -> Result<Row> {
+    let beyond = record.iter().skip(columns.len()).any(|field| !field.is_empty());
+    if record.len() < columns.len() || beyond {
+        let names: Vec<_> = columns.iter().map(|column| column.name.as_str()).collect();
+        let hint = match beyond {
+            true => "; numbers with decimal commas need semicolons between them",
+            false => "",
+        };
+        bail!(
+            "{at}: {} values where the header names {} columns ({}){hint}",
+            record.len(),
+            columns.len(),
+            names.join(", ")
+        );
+    }
+    let mut time = 0.0;
+    let mut values = Vec::new();
+    for (field, column) in record.iter().zip(columns) {
+        let number = |mark: &mut _| {
+            let at = format!("{at}, column {}", column.name);
+            number(field, mark).with_context(|| at)
+        };
+        match column.role {
+            Role::Time => time = number(mark)?,
+            Role::Input { factor, offset, .. } => values.push((number(mark)? - offset) / factor),
+            Role::Ignored => {}
+        }
+    }
+    Ok(Row { time, values })
+}
+
+fn number(field: &str, mark: &mut Option<char>) -> Result<f64> {
+    if let Some(found) = field.chars().find(|c| matches!(c, '.' | ',')) {
+        let known = *mark.get_or_insert(found);
+        if known != found {
+            bail!("`{field}` has a decimal `{found}` where numbers before have `{known}`");
+        }
+    }
+    if field.is_empty() {
+        bail!("the value is missing");
+    }
+    match field.replace(',', ".").parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => {
+            let start: String = field.chars().take(QUOTED).collect();
+            bail!("`{start}` is not a finite number")
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn model() -> ModelDescription {
+        ModelDescription::parse(&crate::describe::xml().unwrap()).unwrap()
+    }
+
+    #[test]
+    fn files_of_all_kinds_of_programs_say_the_same() {
+        let model = model();
+        let degree = 1f64.to_radians();
+        for text in [
+            "time,delta_e[deg],phi\n0,0,0\n0.5,0,0\n0.5,1,0.25\n",
+            "\"time\",\"delta_e[deg]\",\"phi\"\r\n0,0,0\r\n0.5,0,0\r\n\r\n\"0.5\",1,0.25",
+            "time;delta_e[deg];phi\n0;0;0\n0,5;0;0\n0,5;1;0,25\n",
+            "Time [s]\tdelta_e [deg]\tphi\n0\t0\t0\n0.5\t0\t0\n0.5\t1\t0.25\n",
+            "time,delta_e[deg],phi,\n0,0,0,\n0.5,0,0,\n0.5,1,0.25,\n",
+            "phi,delta_e[deg],time\n0,0,0\n0,0,0.5\n0.25,1,5e-1\n",
+            "# a; b\ntime , delta_e[deg] , phi\n#\n0,0,0\n  # c\n0.5,0,0\n \n,,\n0.5,1,0.25\n",
+            ",time,V,delta_e[deg],phi\n0,0,7,0,0\n1,0.5,NaN,0,0\n2,0.5,,1,0.25\n",
+            "time,phi,delta_e[deg]\r0,0,0\r0.5,0,0\r0.5,0.25,1\r",
+        ] {
+            let read = parse(text, "a.csv", &model).unwrap();
+            let column = |name: &str| read.inputs.iter().position(|i| i.name == name).unwrap();
+            let (delta_e, phi) = (column("delta_e"), column("phi"));
+            let rows: Vec<_> =
+                read.rows.iter().map(|r| (r.time, r.values[delta_e], r.values[phi])).collect();
+            assert_eq!(rows[..2], [(0.0, 0.0, 0.0), (0.5, 0.0, 0.0)], "{text:?}");
+            assert_eq!((rows[2].0, rows[2].2, rows.len()), (0.5, 0.25, 3), "{text:?}");
+            assert!((rows[2].1 - degree).abs() < 1e-15, "{text:?}");
+            let ignored: &[&str] =
+                if text.contains('V') { &["one without a name", "V"] } else { &[] };
+            assert_eq!(read.ignored, ignored, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn refusals_name_file_line_and_column() {
+        let model = model();
+        for (text, expected) in [
+            ("", "a.csv: no header; the first line has to be like `time,delta_e,phi"),
+            ("\n# time,phi\n", "a.csv: no header"),
+            ("t,phi\n", "a.csv, line 1: there is no input `t`"),
+            ("phi\n1\n", "a.csv, line 1: there is no column `time`"),
+            ("0,1\n1,1\n", "a.csv, line 1: numbers where the names of the columns should be"),
+            ("# time;phi\n0,5;1\n", "a.csv, line 2: numbers where the names"),
+            ("time,delta\n", "line 1: there is no input `delta`; did you mean delta_e?"),
+            ("time,mach0\n", "line 1: mach0 is a parameter, which does not change in flight"),
+            ("time,phi,phi\n", "line 1: column phi is there twice"),
+            ("time,Time\n", "line 1: column time is there twice"),
+            ("time[ms],phi\n", "column time: unit `ms` is unknown; s is expected"),
+            ("time,delta_e[grad]\n", "column delta_e: unit `grad` is unknown; rad or deg"),
+            ("time,phi[%]\n", "column phi: unit `%` is unknown; 1 is expected"),
+            ("time,phi\n0,1,2\n", "line 2: 3 values where the header names 2 columns (time, phi)"),
+            ("time,phi\n0\n", "line 2: 1 values where the header names 2 columns (time, phi)"),
+            ("time,phi\n0,1,5\n", "numbers with decimal commas need semicolons"),
+            ("time,phi\n0,1\n1,x\n", "a.csv, line 3, column phi: `x` is not a finite number"),
+            ("time,phi\r\n\r\n0,\r\n", "a.csv, line 3, column phi: the value is missing"),
+            ("time,phi\n0,inf\n", "line 2, column phi: `inf` is not a finite number"),
+            ("time,phi\n0,NaN\n", "line 2, column phi: `NaN` is not a finite number"),
+            ("time;phi\n0;0.5\n1;1,5\n", "line 3, column phi: `1,5` has a decimal `,` where"),
+            ("time;phi\n0;1.000,5\n", "line 2, column phi: `1.000,5` is not a finite number"),
+            ("time,phi\n0,\"1\n2,3\n", "line 2: a quotation mark opens and is not closed"),
+            ("time,phi\n1,0\n#\n0.5,0\n", "line 4, column time: 0.5 s follows 1 s"),
+            ("time,phi\n1,0\n1,1\n1,2\n", "line 4, column time: a third row for 1 s"),
+        ] {
+            let error = parse(text, "a.csv", &model).unwrap_err();
+            let message = format!("{error:#}");
+            assert!(message.contains(expected), "{text:?} gave: {message}");
+        }
+    }
+}

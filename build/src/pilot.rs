@@ -1,0 +1,147 @@
+//! Steps an FMU through a manoeuvre and keeps a record.
+
+use crate::manoeuvre::Manoeuvre;
+use crate::master::{Instance, Step};
+use crate::model_description::Variable;
+use crate::record::Record;
+use ahv::short::short;
+use anyhow::{Result, bail};
+use std::time::{Duration, Instant};
+
+/// Steps of which a record is kept; each takes some 250 bytes of memory and 600 of the CSV file.
+const MAX_STEPS: usize = 1_000_000;
+/// Communication points closer than this share of a step are one.
+const SAME_INSTANT: f64 = 1e-6;
+
+/// How far a flight came.
+pub struct Flown {
+    pub record: Record,
+    /// Time spent in the FMU's steps.
+    pub spent: Duration,
+    /// Why it ended early.
+    pub discarded: Option<String>,
+}
+
+/// From initialisation mode to the stop time or an early end. Rows hold the inputs at their time and
+/// the `recorded` variables with them; where an input jumps there are two, before and after.
+pub fn fly<'a>(
+    instance: &mut Instance,
+    manoeuvre: &Manoeuvre,
+    recorded: impl Iterator<Item = &'a Variable>,
+    points: &[f64],
+) -> Result<Flown> {
+    let recorded: Vec<_> = recorded.collect();
+    let names = recorded.iter().map(|variable| variable.name.clone());
+    let names = std::iter::once("time".to_string()).chain(names).collect();
+    let references: Vec<_> = recorded.iter().map(|variable| variable.value_reference).collect();
+    let mut record = Record { names, rows: Vec::new() };
+    let mut add = |instance: &mut Instance, time: f64| -> Result<()> {
+        record.rows.push([&[time], instance.get(&references)?.as_slice()].concat());
+        Ok(())
+    };
+
+    let mut spent = Duration::ZERO;
+    let (mut time, mut discarded) = (0.0, None);
+    reach(instance, manoeuvre, time)?;
+    instance.initialise()?;
+    add(instance, time)?;
+    for &next in points {
+        if leave(instance, manoeuvre, time)? {
+            add(instance, time)?;
+        }
+        let started = Instant::now();
+        let outcome = instance.step(time, next - time)?;
+        spent += started.elapsed();
+        if let Step::Discarded(reached, reason) = outcome {
+            add(instance, reached)?;
+            discarded = Some(reason);
+            break;
+        }
+        time = next;
+        reach(instance, manoeuvre, time)?;
+        add(instance, time)?;
+    }
+    Ok(Flown { record, spent, discarded })
+}
+
+/// Sets the inputs that an instant is reached with.
+fn reach(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
+    let values = manoeuvre.before(time).unwrap_or_default();
+    manoeuvre.inputs.iter().zip(values).try_for_each(|(input, value)| instance.set(input, value))
+}
+
+/// Sets how the inputs go on from there; true if one jumps.
+fn leave(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<bool> {
+    let (Some(before), Some(after)) = (manoeuvre.before(time), manoeuvre.after(time)) else {
+        return Ok(false);
+    };
+    for (input, value) in manoeuvre.inputs.iter().zip(&after.values) {
+        instance.set(input, *value)?;
+    }
+    if after.slopes.iter().any(|slope| *slope != 0.0) {
+        instance.set_slopes(&manoeuvre.inputs, &after.slopes)?;
+    }
+    Ok(before != after.values)
+}
+
+/// The ends of all steps: multiples of the step, the stop time, and the rows of a manoeuvre, so that
+/// the inputs are linear during each step. `rows` do not decrease.
+pub fn communication_points(
+    step: f64,
+    stop: f64,
+    rows: impl Iterator<Item = f64>,
+) -> Result<Vec<f64>> {
+    if stop / step > MAX_STEPS as f64 {
+        bail!(
+            "--step {} s makes {:.0e} steps in {} s; the record holds {:.0e}",
+            short(step),
+            stop / step,
+            short(stop),
+            MAX_STEPS as f64
+        );
+    }
+    // 0.01 is no binary number: dividing by a whole number of steps per second gives the doubles
+    // nearest to 0.01, 0.02, ..., multiplying does not.
+    let rate = (1.0 / step).round();
+    let exact = 1.0 / rate == step;
+    let multiple = |n: f64| if exact { n / rate } else { n * step };
+    let count = (stop / step - SAME_INSTANT).ceil() as usize;
+    let same = SAME_INSTANT * step;
+    let mut rows: Vec<f64> = rows.filter(|time| *time > 0.0 && *time < stop - same).collect();
+    rows.dedup();
+    let apart = |time: &f64| {
+        let next = rows.partition_point(|row| *row < *time - same);
+        rows.get(next).is_none_or(|row| *row > *time + same)
+    };
+    let grid = (1..count).map(|n| multiple(n as f64)).chain([stop]).filter(apart);
+    let mut points: Vec<f64> = grid.chain(rows.iter().copied()).collect();
+    if points.len() > 2 * MAX_STEPS {
+        bail!("{} rows before {stop} s; a flight takes {MAX_STEPS}", rows.len());
+    }
+    points.sort_by(f64::total_cmp);
+    Ok(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_end_on_the_grid_on_rows_and_at_the_stop_time() {
+        let points = |step, stop, rows: &[f64]| {
+            communication_points(step, stop, rows.iter().copied()).unwrap()
+        };
+        assert_eq!(points(0.1, 0.3, &[]), [0.1, 0.2, 0.3]);
+        assert_eq!(points(0.2, 0.5, &[]), [0.2, 0.4, 0.5]);
+        assert_eq!(points(0.1, 0.3, &[0.0, 0.15, 0.15, 0.2, 0.3, 7.0]), [0.1, 0.15, 0.2, 0.3]);
+        assert_eq!(points(0.1, 0.3, &[0.1 + 1e-9, 0.3 - 1e-9]), [0.1 + 1e-9, 0.2, 0.3]);
+        assert_eq!(points(0.01, 2.0, &[]).len(), 200);
+        assert_eq!(points(0.01, 2.0, &[])[34], 0.35);
+        assert_eq!(points(1.0, 0.5, &[]), [0.5]);
+        let error = communication_points(1e-7, 1.0, std::iter::empty()).unwrap_err();
+        assert!(
+            error.to_string().contains("s makes 1e7 steps in 1 s; the record holds 1e6"),
+            "{error}"
+        );
+    }
+}

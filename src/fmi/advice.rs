@@ -1,0 +1,45 @@
+//! What works and is probably not meant: said in the log, and nowhere else.
+
+use crate::fmi::instance::Instance;
+use crate::fmi::sys::Status;
+use crate::short::short;
+use crate::variables;
+
+/// The controls' names, their unit, and what may have been mistaken.
+const CONTROLS: [(&str, &str, &str); 2] =
+    [("delta_e", " rad", "; inputs are in rad, not in degrees"), ("phi", "", "")];
+
+impl Instance {
+    /// Says which parameters were changed in vain.
+    pub(super) fn say_ignored(&mut self) {
+        for (name, why) in self.flight.parameters().ignored() {
+            let value = |flight| variables::find(name).map(|variable| variable.get(flight));
+            let (now, before) = (value(&self.flight), value(&self.pristine));
+            if let (Some(now), true) = (now, now != before) {
+                self.log.push(Status::Ok, || {
+                    let now = short(now);
+                    format!("fmi2ExitInitializationMode: {name} = {now} has no effect: {why}")
+                });
+            }
+        }
+    }
+
+    /// Says, once, that an input asks for more than its actuator can do: in `call`, if the master
+    /// listens.
+    pub(super) fn say_limit(&mut self, call: &str) {
+        if self.limit_said || !self.log.wants(Status::Ok) {
+            return;
+        }
+        if let Some((control, asked, [min, max])) = self.flight.beyond_limits() {
+            let (name, unit, mistake) = CONTROLS[control];
+            let [asked, limit] = [asked, asked.clamp(min, max)].map(short);
+            self.limit_said = true;
+            self.log.push(Status::Ok, || {
+                format!(
+                    "{call}: {name} asks for {asked}{unit} in all and gets {limit}{unit}, its limit \
+                     (said once){mistake}"
+                )
+            });
+        }
+    }
+}
