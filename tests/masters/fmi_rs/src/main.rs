@@ -51,6 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let controls = Some(Arc::new(StaticInput::new(controls, TIME_TOLERANCE)));
     let columns: Result<Vec<_>, _> =
         variables.split(',').map(|name| description.variable_index_by_name(name)).collect();
+    #[expect(clippy::arc_with_non_send_sync, reason = "fmi-rs takes it so")]
     let recorder = Arc::new(Recorder::new(Trajectories::new(description.clone(), columns?)));
     match kind.as_str() {
         "cs" => cs::simulate(&settings, controls, recorder.clone())?,
