@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::python;
 use crate::workspace::{cargo, check, root, target, works};
-use crate::{abuse, describe, package, research, say};
+use crate::{abuse, describe, masters, package, research, say};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::process::Command;
@@ -24,7 +24,7 @@ use Level::{Always, Thorough};
 /// A step: its name, when it runs, what it does.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 16] = [
+const STEPS: [Step; 17] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -48,6 +48,7 @@ const STEPS: [Step; 16] = [
     ("FMI headers", Always, |_| fmi_headers()),
     ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
+    ("other masters", Thorough, |_| masters::fly()),
     ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
     ("sanitizer", Thorough, |_| abuse::sanitizer()),
     ("valgrind", Thorough, |_| abuse::valgrind()),
