@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -31,6 +32,8 @@ if TYPE_CHECKING:
     from fmpy.model_description import ModelVariable
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+
+ROOT = Path(__file__).resolve().parents[2]
 
 OK, WARNING, DISCARD, ERROR = 0, 1, 2, 3
 
@@ -63,6 +66,13 @@ EVERYTHING = (
     *(FUEL, f"der({FUEL})"),
 )
 ACTIVE_STATES = {RIGID: 5, EVEN_MASS_BEAM: 11, SLOSH_BEAM: 15}
+
+
+def ahv(*arguments: Any) -> subprocess.CompletedProcess[str]:
+    """`cargo ahv` with these arguments; Cargo itself says nothing."""
+    command = ["cargo", "ahv", *map(str, arguments)]
+    quiet = os.environ | {"CARGO_TERM_QUIET": "true"}
+    return subprocess.run(command, cwd=ROOT, env=quiet, capture_output=True, text=True, check=False)
 
 
 class Message(NamedTuple):

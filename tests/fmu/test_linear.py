@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import runpy
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +20,7 @@ from harness import (
     STATES,
     Instance,
     Package,
+    ahv,
 )
 
 ROOT = Path(__file__).parents[2]
@@ -46,8 +46,8 @@ def jacobian(flight: Instance, unknowns: tuple[str, ...], knowns: tuple[str, ...
 
 def tool(configuration: int) -> dict:
     """What `cargo ahv poles` says."""
-    command = ["cargo", "ahv", "poles", "--json", "--set", f"configuration={NAMES[configuration]}"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    done = ahv("poles", "--json", "--set", f"configuration={NAMES[configuration]}")
+    assert done.returncode == 0, done.stderr
     (report,) = json.loads(done.stdout)
     return report
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 from fmpy import simulate_fmu
 from fmpy.util import read_csv
 
-from harness import Package
+from harness import Package, ahv
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 STEP = 0.01
@@ -29,9 +28,8 @@ def fly(
     package: Package, output: Path, *options: str, step: float = STEP
 ) -> tuple[np.ndarray, str]:
     """The record of a flight by the tool, and its hints."""
-    command = ["cargo", "ahv", "fly", "--fmu", str(package.path), "--output", str(output)]
-    command += ["--step", str(step), "--tolerance", str(TOLERANCE), *options]
-    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=EXAMPLES.parent)
+    where = ("--fmu", package.path, "--output", output)
+    done = ahv("fly", *where, "--step", step, "--tolerance", TOLERANCE, *options)
     assert done.returncode == 0, done.stderr
     record = np.genfromtxt(output / "flight.csv", delimiter=",", names=True)
     return record, done.stderr

@@ -123,11 +123,9 @@ def lowest(
         block = block - free @ (part @ block)
         heavy = inertia.times(block)
         # Rayleigh-Ritz on the inverse: largest values first, which favours the wanted modes.
-        # Doubles are enough to turn the block within what it spans.
-        found = block.astype(float)
-        gram, inverse = found.T @ heavy.astype(float), found.T @ load.astype(float)
+        gram, inverse = ((block.T @ other).astype(float) for other in (heavy, load))
         scale = 1.0 / np.sqrt(np.diag(inverse))
-        values, turn = eigh(*((m + m.T) / 2 * np.outer(scale, scale) for m in (gram, inverse)))
+        values, turn = eigh(gram * np.outer(scale, scale), inverse * np.outer(scale, scale))
         turn = to_decimal((scale[:, None] * turn / np.sqrt(values))[:, ::-1])
         block, load = block @ turn, heavy @ turn
         # Converged once no mode turns any more, in the metric of M'.

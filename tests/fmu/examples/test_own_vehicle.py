@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from fmpy.fmi1 import FMICallException
 
-from harness import CONFIGURATIONS, DERIVATIVES, ERROR, Package
+from harness import CONFIGURATIONS, DERIVATIVES, ERROR, Package, ahv
 from oracle import DATA_DIR, Vehicle
 
 # Both solve the same equations to rounding; the conditioning costs a few digits.
@@ -21,12 +21,6 @@ EQUAL = 1e-9
 # Rates at rest: rounding of terms of about 1e3 m/s^2.
 RATE_AT_REST = 1e-9
 STIFFNESS = re.compile(r"(?<=stiffness_n_m2_per_m = \{ value = \[)[^]]*")
-
-
-def ahv(repository: Path, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    """What `cargo ahv` says."""
-    command = ["cargo", "ahv", *map(str, arguments)]
-    return subprocess.run(command, cwd=repository, capture_output=True, text=True)
 
 
 @pytest.fixture(scope="module")
@@ -45,12 +39,12 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def own(repository: Path, data: Path, tmp_path_factory: pytest.TempPathFactory) -> Package:
+def own(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Package:
     """The FMU built with these data."""
     folder = tmp_path_factory.mktemp("own")
     fmu = folder / "own.fmu"
     files = ("--vehicle", data / "vehicle.toml", "--coefficients", data / "aero" / "own.toml")
-    built = ahv(repository, "package", "--host-only", *files, "--output", fmu)
+    built = ahv("package", "--host-only", *files, "--output", fmu)
     assert built.returncode == 0, built.stderr
     fmpy.extract(str(fmu), unzipdir=str(folder / "unzipped"))
     return Package(fmu, folder / "unzipped")
@@ -103,22 +97,22 @@ def test_verif_a_state_of_another_vehicle_is_refused(own: Package, package: Pack
     ],
 )
 def test_wrong_data_are_refused_before_anything_is_built(
-    repository: Path, tmp_path: Path, old: str, new: str, told: str
+    tmp_path: Path, old: str, new: str, told: str
 ) -> None:
     """File, key, value and limit; no FMU."""
     file, fmu = tmp_path / "mine.toml", tmp_path / "own.fmu"
     text = (DATA_DIR / "vehicle.toml").read_text()
     assert old in text
     file.write_text(text.replace(old, new, 1))
-    refused = ahv(repository, "package", "--vehicle", file, "--output", fmu)
+    refused = ahv("package", "--vehicle", file, "--output", fmu)
     assert refused.returncode != 0
     assert str(file) in refused.stderr and told in refused.stderr
     assert not fmu.exists()
 
 
-def test_a_file_that_is_not_there_is_named(repository: Path) -> None:
+def test_a_file_that_is_not_there_is_named() -> None:
     """And the command fails."""
-    refused = ahv(repository, "modes", "--coefficients", "nowhere.toml")
+    refused = ahv("modes", "--coefficients", "nowhere.toml")
     assert refused.returncode != 0 and "nowhere.toml" in refused.stderr
 
 
