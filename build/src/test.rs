@@ -24,7 +24,7 @@ use Level::{Always, Thorough};
 /// A step: its name, when it runs, what it does.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 16] = [
+const STEPS: [Step; 17] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -46,7 +46,11 @@ const STEPS: [Step; 16] = [
     }),
     ("Python lints", Always, |_| python_lints()),
     ("FMI headers", Always, |_| fmi_headers()),
-    ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
+    ("FMU tests", Always, |_| {
+        let others = ["tests/fmu/examples", MASTERS].map(|path| format!("--ignore={path}"));
+        pytest(&["tests/fmu", &others[0], &others[1]])
+    }),
+    ("masters", Thorough, |_| pytest(&[MASTERS])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
     ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
     ("sanitizer", Thorough, |_| abuse::sanitizer()),
@@ -62,6 +66,8 @@ const STEPS: [Step; 16] = [
     }),
 ];
 
+/// Masters beyond FMPy, which need more than Python.
+const MASTERS: &str = "tests/fmu/test_masters.py";
 const WINDOWS: &str = "Windows";
 
 pub fn run(options: &Test) -> Result<()> {
