@@ -10,15 +10,16 @@ use crate::vehicle::{Build, Configuration, Data};
 /// Least gravity, over gravity at rest, for which a vehicle is put together.
 const WEIGHTLESS: f64 = 1e-3;
 
-/// What a build asks of the data files: with its factors applied, and its coefficient set chosen.
+/// What a build asks of the data files: with its factors applied, and its coefficient set chosen. Boxed
+/// as [`Data`] is.
 #[derive(Debug, Clone)]
 pub struct Chosen {
     /// Vehicle.
-    pub vehicle: VehicleData,
+    pub vehicle: Box<VehicleData>,
     /// Gravity and air.
-    pub earth: EarthData,
+    pub earth: Box<EarthData>,
     /// Coefficient set.
-    pub aero: AeroData,
+    pub aero: Box<AeroData>,
     /// Build.
     pub build: Build,
 }
@@ -33,9 +34,9 @@ impl Chosen {
     pub fn with_set(data: &Data, build: &Build, set: &AeroData) -> Self {
         let factors = &build.factors;
         Self {
-            vehicle: factors.vehicle(&data.vehicle),
-            earth: factors.earth(&data.earth),
-            aero: factors.aero(set),
+            vehicle: factors.vehicle(&data.vehicle).into(),
+            earth: factors.earth(&data.earth).into(),
+            aero: factors.aero(set).into(),
             build: *build,
         }
     }

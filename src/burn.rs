@@ -10,9 +10,11 @@
 //! spaced in the root of the filling. Between them lie cubics with matching slopes; these come from
 //! five levels each, so the error falls with the fourth power of the spacing.
 
+use crate::aero::PerMode;
 use crate::assembly::Chosen;
 use crate::dynamics::{Airframe, COEFFICIENTS};
 use crate::error::Error;
+use crate::modes::MODES;
 #[cfg(doc)]
 use crate::modes::Modes;
 use crate::scalar::Scalar;
@@ -78,17 +80,15 @@ impl Burn {
             bodies.push(Body::new(chosen)?.turned(chosen, body)?);
         }
         let shapes: Vec<Vec<Vec<f64>>> = bodies.iter().map(Body::displacements).collect();
-        let row = |level: usize| {
+        let mut rows = Vec::with_capacity(LEVELS);
+        for (level, body) in bodies.iter().enumerate() {
             let root = start - spacing * level as f64;
             let levels_per_fuel = -filling[1] / (2.0 * root * spacing);
-            let mut airframe = bodies[level].airframe(&levels[level])?;
-            airframe.turning = bodies[level].products(&turned(level, &shapes));
-            for entry in airframe.turning.as_flattened_mut() {
-                *entry *= levels_per_fuel;
-            }
-            Ok(airframe.to_row())
-        };
-        let rows = (0..LEVELS).map(row).collect::<Result<Vec<_>, Error>>()?;
+            let turning = body
+                .products(&turned(level, &shapes))
+                .map(|row| row.map(|entry| entry * levels_per_fuel));
+            push_row(&mut rows, body, &levels[level], turning)?;
+        }
         Ok(Self { filling, start, spacing, pieces: pieces(&rows) })
     }
 
@@ -121,6 +121,19 @@ impl Burn {
         };
         -(root - self.start) * (1.0 / self.spacing)
     }
+}
+
+/// Adds an airframe, in a frame of its own: its numbers are many.
+#[inline(never)]
+fn push_row(
+    rows: &mut Vec<[f64; COEFFICIENTS]>,
+    body: &Body,
+    chosen: &Chosen,
+    turning: [PerMode; MODES],
+) -> Result<(), Error> {
+    let airframe = body.airframe(chosen)?;
+    rows.push(Airframe { turning, ..airframe }.to_row());
+    Ok(())
 }
 
 /// How the shapes change per level, at a level.

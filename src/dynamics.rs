@@ -13,6 +13,7 @@ mod sensors;
 mod stream;
 
 pub use airframe::{Airframe, COEFFICIENTS};
+pub use limits::{STATE_NAMES, is_finite, numberless};
 pub use outputs::{Loads, Outputs};
 pub use sensors::{Imu, Stations};
 
@@ -48,6 +49,8 @@ pub type Control<S = f64> = [S; CONTROLS];
 pub type Gust<S = f64> = [S; GUSTS];
 /// Components of a gust.
 pub const GUSTS: usize = 2;
+/// Fastest gust, m/s: a faster one has no effect beyond this.
+pub const FASTEST_GUST: f64 = 200.0;
 
 /// The vehicle in one configuration, ready to fly. Per metre of width.
 #[derive(Debug, Clone)]
@@ -261,5 +264,10 @@ impl Vehicle {
     pub fn saturate(&self, u: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.ranges();
         [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+    }
+
+    /// A gust cut to the fastest.
+    pub fn gust(wanted: Gust) -> Gust {
+        wanted.map(|speed| speed.clamp(-FASTEST_GUST, FASTEST_GUST))
     }
 }

@@ -32,12 +32,14 @@ impl Limited {
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
         let (nearest, width) = (f64::min(self.value - min, max - self.value), max - min);
-        if width.is_finite() { nearest / width } else { nearest }
+        // The divisor is chosen, not the quotient: infinity over infinity would be computed too.
+        nearest / if width.is_finite() { width } else { 1.0 }
     }
 }
 
 impl Envelope {
-    fn limited(&self, atmosphere: &Atmosphere, x: &State) -> [Limited; 3] {
+    /// Altitude, Mach number and incidence.
+    pub fn limited(&self, atmosphere: &Atmosphere, x: &State) -> [Limited; 3] {
         let mach = x[0] / atmosphere.sound_speed(x[1]);
         [
             Limited { variable: "h", value: x[1], limits: self.altitude },
@@ -50,15 +52,10 @@ impl Envelope {
     pub fn holds(&self, atmosphere: &Atmosphere, x: &State) -> bool {
         self.limited(atmosphere, x).iter().all(|limited| limited.margin() >= 0.0)
     }
-
-    /// The variable that is outside its limits or, inside all, next to them.
-    pub fn tightest(&self, atmosphere: &Atmosphere, x: &State) -> Limited {
-        let [first, rest @ ..] = self.limited(atmosphere, x);
-        tightest(first, rest)
-    }
 }
 
-/// The one with the smallest margin.
-pub fn tightest(first: Limited, rest: impl IntoIterator<Item = Limited>) -> Limited {
-    rest.into_iter().fold(first, |a, b| if b.margin() < a.margin() { b } else { a })
+/// The one with the smallest margin; there is one.
+pub fn tightest(limited: impl IntoIterator<Item = Limited>) -> Limited {
+    let nowhere = Limited { variable: "", value: 0.0, limits: [f64::NEG_INFINITY, f64::INFINITY] };
+    limited.into_iter().fold(nowhere, |a, b| if b.margin() < a.margin() { b } else { a })
 }

@@ -55,7 +55,8 @@ pub enum Error {
     /// No level flight within the limits of vehicle and curve fits.
     #[error(
         "no trim at mach0 = {}, altitude0 = {} m, gamma0 = {} rad: {limit} \
-         (largest residual {residual:.3e}); choose another flight condition or set trim = false",
+         (largest residual {residual:.3e}); choose another flight condition, factors nearer to 1, or \
+         trim = false",
         short(*mach), short(*altitude_m), short(*gamma_rad)
     )]
     Trim {
@@ -85,7 +86,8 @@ pub enum Error {
     /// The flight reached the edge of the region in which the curve fits hold.
     #[error(
         "{variable} = {value:.6} reached the edge of its valid range [{min:.6}, {max:.6}] at \
-         t = {time_s} s; beyond it the curve fits mean nothing, so the flight ends there"
+         t = {time_s} s; {}, so the flight ends there",
+        beyond(variable)
     )]
     Envelope {
         /// Name of the variable at the edge of its range.
@@ -98,6 +100,22 @@ pub enum Error {
         max: f64,
         /// The last valid instant, s.
         time_s: f64,
+    },
+    /// A state so far off that the equations have no numbers.
+    #[error(
+        "{variable} = {}: the equations have numbers in [{}, {}] only; try a state nearer to flight, \
+         or a shorter step",
+        short(*value), short(*min), short(*max)
+    )]
+    Numberless {
+        /// Name of the state.
+        variable: &'static str,
+        /// Its value.
+        value: f64,
+        /// Lower limit.
+        min: f64,
+        /// Upper limit.
+        max: f64,
     },
     /// The tanks ran empty.
     #[error(
@@ -129,4 +147,13 @@ pub enum Error {
         /// Time reached, s.
         time_s: f64,
     },
+}
+
+/// What is beyond the range of a limited variable.
+fn beyond(variable: &str) -> &'static str {
+    match variable {
+        "slosh1" | "slosh2" => "beyond it the liquid would leave its depth",
+        "choking_margin" => "beyond it the burner chokes",
+        _ => "beyond it the curve fits mean nothing",
+    }
 }

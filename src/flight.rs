@@ -1,6 +1,7 @@
 //! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
 
 mod inputs;
+mod left;
 mod ready;
 mod snapshot;
 mod steered;
@@ -11,12 +12,14 @@ pub use ready::method;
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, FUEL, Gust, Outputs, STATES, State, Vehicle};
+use crate::dynamics::{Control, Gust, Outputs, STATES, State, Vehicle, numberless};
+use crate::envelope::Limited;
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, MOST_TRIALS, System};
 use crate::parameters::Parameters;
 use crate::trim::Trim;
 use crate::vehicle::Data;
+use left::left;
 use ready::Ready;
 use std::sync::Arc;
 use steered::{Steered, in_effect};
@@ -48,20 +51,11 @@ pub struct Flight {
     integrator: Integrator,
     state: State,
     /// Vehicle and trim, once initialised.
-    ready: Option<Ready>,
+    ready: Option<Box<Ready>>,
     /// Derivatives at the current state and controls, if known.
     slope: Option<State>,
     /// What is shown, if known.
     sample: Option<Sample>,
-}
-
-fn left(vehicle: &Vehicle, state: &State, (control, gust): (Control, Gust), time_s: f64) -> Error {
-    let tightest = vehicle.tightest(state, &control, gust);
-    if vehicle.burn.is_some() && state[FUEL] <= tightest.margin() * vehicle.fuel {
-        return Error::Fuel { time_s };
-    }
-    let [min, max] = tightest.limits;
-    Error::Envelope { variable: tightest.variable, value: tightest.value, min, max, time_s }
 }
 
 impl Flight {
@@ -147,20 +141,28 @@ impl Flight {
     /// Whether the curve fits hold here, with fuel if it burns.
     ///
     /// # Errors
-    /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::initialise`].
+    /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::evaluate`].
     pub fn check(&mut self) -> Result<(), Error> {
         self.initialise()?;
+        self.check_numbers()?;
         let Some(ready) = &self.ready else { return Ok(()) };
         let (control, gust) = self.control(ready);
         if ready.vehicle.holds(&self.state, &control, gust) {
             return Ok(());
         }
-        Err(left(&ready.vehicle, &self.state, (control, gust), self.time))
+        Err(left(ready, &self.state, &self.inputs, self.time))
+    }
+
+    /// Whether the equations have numbers here.
+    fn check_numbers(&self) -> Result<(), Error> {
+        numberless(&self.state).map_or(Ok(()), |Limited { variable, value, limits: [min, max] }| {
+            Err(Error::Numberless { variable, value, min, max })
+        })
     }
 
     /// Vehicle, once initialised.
     pub fn vehicle(&self) -> Option<&Vehicle> {
-        self.ready.as_ref().map(|ready| &ready.vehicle)
+        self.ready.as_ref().map(|ready| &*ready.vehicle)
     }
 
     /// Trim, once initialised; without trim, the start values with zero controls.
@@ -200,10 +202,12 @@ impl Flight {
     /// Outputs and derivatives at the current instant, computed once per state and input.
     ///
     /// # Errors
-    /// Those of [`Flight::initialise`], if the flight is not initialised yet.
+    /// [`Error::Numberless`] if an integrator from outside went too far; those of
+    /// [`Flight::initialise`], if the flight is not initialised yet.
     pub fn evaluate(&mut self) -> Result<(), Error> {
         self.initialise()?;
         if let (None, Some(ready)) = (&self.sample, &self.ready) {
+            self.check_numbers()?;
             let (control, gust) = self.control(ready);
             let (derivatives, outputs) = match self.slope {
                 Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust, &slope)),
@@ -243,7 +247,7 @@ impl Flight {
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
         let arrival = if steered.steady() {
-            integrator.advance(&mut ready.method, &steered, state, interval, slope)
+            integrator.advance(&mut *ready.method, &steered, state, interval, slope)
         } else {
             integrator.advance(&mut &DOP853, &steered, state, interval, slope)
         };
@@ -260,8 +264,7 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                let air = in_effect(&ready.vehicle, &ready.base, &inputs.values);
-                Err(left(&ready.vehicle, state, air, self.time))
+                Err(left(ready, state, inputs, self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

@@ -8,6 +8,10 @@ pub trait System<const N: usize> {
     fn holds(&self, t: f64, x: &[f64; N]) -> bool;
     /// Typical size of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
+    /// Whether f has numbers at x: a trial state may be anywhere.
+    fn has_numbers(&self, _x: &[f64; N]) -> bool {
+        true
+    }
     /// Whether neither f nor `holds` changes with time: what a step leaves as it is then stays so.
     fn steady(&self) -> bool {
         false
@@ -71,7 +75,23 @@ pub struct Attempt<'a, S, const N: usize> {
     pub tolerance: f64,
 }
 
+/// Rates where f has no numbers, per second: no step that meets them holds its tolerance, and
+/// nothing made of them overflows.
+const WILD: f64 = 1e30;
+
+/// f(t, x) at any x.
+#[inline(always)]
+fn rates<S: System<N>, const N: usize>(system: &S, t: f64, x: &[f64; N]) -> [f64; N] {
+    if system.has_numbers(x) { system.derivatives(t, x) } else { [WILD; N] }
+}
+
 impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
+    /// f at a stage.
+    #[inline(always)]
+    pub fn rates(&self, t: f64, x: &[f64; N]) -> [f64; N] {
+        rates(self.system, t, x)
+    }
+
     /// Largest error of a state over the tolerance, if the step ends in `next` and the error grew by
     /// `rates`, 1/s.
     #[inline(always)]
@@ -142,7 +162,7 @@ impl Integrator {
         let mut t = start;
         // First instant at which the model is known not to hold.
         let mut invalid = f64::INFINITY;
-        let mut slope = first.unwrap_or_else(|| system.derivatives(t, x));
+        let mut slope = first.unwrap_or_else(|| rates(system, t, x));
         for _ in 0..MOST_TRIALS {
             if t >= end {
                 return Arrival::Complete;
@@ -166,7 +186,7 @@ impl Integrator {
             let tolerance = self.tolerance;
             let trial = method.trial(&Attempt { system, x, slope: &slope, t, h, tolerance });
             let error = trial.error;
-            // A NaN, from a wild trial state, counts as far too long a step.
+            // One that is no number counts as far too long a step.
             let factor = if error == 0.0 {
                 FACTORS[1]
             } else if error.is_finite() {
@@ -203,13 +223,13 @@ impl Integrator {
 impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
     #[inline]
     fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
-        let &Attempt { system, x, slope, t, h, .. } = attempt;
+        let &Attempt { x, slope, t, h, .. } = attempt;
         let mut stages = [[0.0; N]; STAGES];
         stages[0] = *slope;
         let advanced = |sum: [f64; N]| std::array::from_fn(|i| x[i] + h * sum[i]);
         for stage in 1..STAGES {
             let trial = advanced(combine(&stages[..stage], &self.a[stage]));
-            stages[stage] = system.derivatives(t + self.c[stage] * h, &trial);
+            stages[stage] = attempt.rates(t + self.c[stage] * h, &trial);
         }
         let next = advanced(combine(&stages, &self.b));
         let [high, low] = [&self.error, &self.error_low]
@@ -217,8 +237,10 @@ impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
         let error = match low {
             0.0 => high,
             // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
-            _ => high * high / libm::sqrt(high * high + 0.01 * low * low),
+            _ => high * high / libm::sqrt(high * high + 0.01 * low * low).max(f64::MIN_POSITIVE),
         };
+        // No stage has met the step's end.
+        let error = if attempt.system.has_numbers(&next) { error } else { f64::INFINITY };
         Trial { next, slope: None, error, order: self.error_order }
     }
 }

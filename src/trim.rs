@@ -36,6 +36,8 @@ const MAX_STEPS: usize = 40;
 /// Scaled residual (accelerations over those of free fall) that counts as steady. Rounding leaves
 /// about 1e-15.
 const STEADY: f64 = 1e-11;
+/// Size of an unknown, rad or m, at which Newton's method has lost its way.
+const LOST: f64 = 1e6;
 /// Rows of the state derivative that must vanish, with their size in a free fall (m/s^2, rad/s,
 /// rad/s^2): V, gamma, q.
 const BALANCES: [(usize, f64); 3] = [(0, 10.0), (2, 0.004), (4, 1.0)];
@@ -116,6 +118,9 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         }
         let Some(step) = jacobian.lu().solve(&value) else { break };
         z -= step;
+        if z.amax() >= LOST {
+            break;
+        }
     }
 
     let impossible = |limit: String, residual: f64| Error::Trim {

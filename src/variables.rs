@@ -108,7 +108,10 @@ impl Variable {
         let refuse =
             |expected: String| Error::Value { variable: self.name.to_string(), value, expected };
         if !self.settable() {
-            return Err(refuse("only inputs and parameters can be set".into()));
+            return Err(refuse(
+                "only inputs and parameters can be set, and states while the master integrates"
+                    .into(),
+            ));
         }
         if !value.is_finite() {
             return Err(refuse("a finite number is needed".into()));

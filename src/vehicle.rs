@@ -13,8 +13,8 @@ use crate::factors::Factors;
 use crate::intake::Intake;
 use crate::modes::{MODES, Modes, SLOSH};
 use crate::params::{
-    AeroData, DataFile, EARTH, EarthData, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData,
-    XU2015,
+    AeroData, DataFile, EARTH, EarthData, Embedded, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE,
+    VehicleData, XU2015,
 };
 use crate::slosh::fuel_kg_per_m;
 use crate::trim::Condition;
@@ -67,21 +67,27 @@ pub struct Build {
     pub factors: Factors,
 }
 
-/// All data files, read and checked.
+/// All data files, read and checked; boxed, as together they are too large for a small stack.
 #[derive(Debug, Clone)]
 pub struct Data {
     /// Vehicle.
-    pub vehicle: VehicleData,
+    pub vehicle: Box<VehicleData>,
     /// Gravity and air.
-    pub earth: EarthData,
+    pub earth: Box<EarthData>,
     /// Identified coefficient set.
-    pub xu2015: AeroData,
+    pub xu2015: Box<AeroData>,
     /// Published coefficient set.
-    pub parker2007: AeroData,
+    pub parker2007: Box<AeroData>,
     /// Coefficient set fitted to the first-principles model.
-    pub shock_expansion: AeroData,
+    pub shock_expansion: Box<AeroData>,
     /// Coefficient set of the user.
-    pub own: Option<AeroData>,
+    pub own: Option<Box<AeroData>>,
+}
+
+/// A file's data, in a frame of its own: reading takes several times their room.
+#[inline(never)]
+fn boxed<T: DataFile>(file: &Embedded) -> Result<Box<T>, Error> {
+    T::embedded(file).map(Box::new)
 }
 
 impl Data {
@@ -91,12 +97,12 @@ impl Data {
     /// [`Error::Data`] with file, key and limit.
     pub fn embedded() -> Result<Self, Error> {
         Ok(Self {
-            vehicle: VehicleData::embedded(&VEHICLE)?,
-            earth: EarthData::embedded(&EARTH)?,
-            xu2015: AeroData::embedded(&XU2015)?,
-            parker2007: AeroData::embedded(&PARKER2007)?,
-            shock_expansion: AeroData::embedded(&SHOCK_EXPANSION)?,
-            own: OWN.as_ref().map(AeroData::embedded).transpose()?,
+            vehicle: boxed(&VEHICLE)?,
+            earth: boxed(&EARTH)?,
+            xu2015: boxed(&XU2015)?,
+            parker2007: boxed(&PARKER2007)?,
+            shock_expansion: boxed(&SHOCK_EXPANSION)?,
+            own: OWN.as_ref().map(boxed).transpose()?,
         })
     }
 
@@ -227,9 +233,16 @@ impl Vehicle {
     /// # Errors
     /// Those of [`Vehicle::new`].
     pub fn with_body(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
-        let Chosen { vehicle, earth, aero, build } = chosen;
-        build.stations.check(vehicle.geometry.length_m.value)?;
+        let build = &chosen.build;
+        build.stations.check(chosen.vehicle.geometry.length_m.value)?;
         let burn = build.fuel_burn.then(|| Burn::new(chosen, body)).transpose()?;
+        Self::assembled(chosen, body, burn)
+    }
+
+    // A frame of its own, beside that of the burning vehicle.
+    #[inline(never)]
+    fn assembled(chosen: &Chosen, body: &Body, burn: Option<Burn>) -> Result<Self, Error> {
+        let Chosen { vehicle, earth, aero, build } = chosen;
         Ok(Self {
             atmosphere: Atmosphere::new(earth),
             aero: Aero::new(aero),

@@ -150,7 +150,12 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
     assert_eq!(set_states(&slave, &still), Status::Ok);
     let (status, rates) = derivatives(&slave);
     assert!(status == Status::Discard && rates.iter().all(|rate| rate.is_nan()), "none written");
-    assert!(slave.message().message.contains("trial state"));
+    let message = slave.message().message;
+    assert!(
+        message.contains("V = 0: the equations have numbers in [500, 8589934592]"),
+        "{message}"
+    );
+    assert_eq!(slave.get("V"), 0.0, "the state itself can be read");
     assert_eq!(set_states(&slave, &good), Status::Ok);
     let mut wild = good;
     wild[4] = f64::NAN;
@@ -162,6 +167,71 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
     assert_eq!(unsafe { (api.set_time)(slave.c, f64::INFINITY) }, Status::Error);
     assert!(slave.message().message.contains("time = inf"));
     assert_eq!(states(&slave), good);
+}
+
+/// Value references of the states, in their order.
+fn state_references() -> [u32; STATES] {
+    ahv::dynamics::STATE_NAMES.map(reference)
+}
+
+#[test]
+fn set_real_sets_states_as_set_continuous_states_does() {
+    let api = Api::load();
+    let (by_name, by_order) = (exchanging(&api, SLOSH_BEAM), exchanging(&api, SLOSH_BEAM));
+    let start = states(&by_name);
+    assert_eq!(by_name.bits(), by_order.bits(), "evaluated before, so that a stale value shows");
+    let moved: State = std::array::from_fn(|i| start[i] + 1e-2 * NOMINAL[i]);
+    let references = state_references();
+    assert_eq!(by_name.set_reals(&references, &moved), Status::Ok);
+    assert_eq!(set_states(&by_order, &moved), Status::Ok);
+    assert_eq!(states(&by_name), moved);
+    assert_eq!(derivatives(&by_name), derivatives(&by_order));
+    assert_eq!(by_name.bits(), by_order.bits());
+
+    // One state, beside an input: the others stay. In event mode as well.
+    for event_mode in [false, true] {
+        if event_mode {
+            // SAFETY: a live instance.
+            let status = unsafe { (api.enter_event_mode)(by_name.c) };
+            assert_eq!(status, Status::Ok);
+        }
+        let (alpha, elevator) = (0.02 + f64::from(event_mode) * 0.01, reference("delta_e"));
+        assert_eq!(by_name.set_reals(&[references[3], elevator], &[alpha, 0.01]), Status::Ok);
+        let mut wanted = moved;
+        wanted[3] = alpha;
+        assert_eq!(states(&by_name), wanted);
+        assert_eq!(
+            (set_states(&by_order, &wanted), by_order.set("delta_e", 0.01)),
+            (Status::Ok, Status::Ok)
+        );
+        assert_eq!(derivatives(&by_name), derivatives(&by_order));
+    }
+}
+
+#[test]
+fn a_refused_state_changes_nothing_and_co_simulation_keeps_its_own() {
+    let api = Api::load();
+    let slave = exchanging(&api, SLOSH_BEAM);
+    let (before, alpha) = (slave.bits(), reference("alpha"));
+    let refused = [
+        ("q", f64::NAN, "q = NaN is refused"),
+        ("eta1", f64::INFINITY, "eta1 = inf is refused"),
+        ("lift", 1.0, "lift = 1 is refused"),
+        ("der(q)", 1.0, "der(q) = 1 is refused"),
+        ("mach0", 7.0, "mach0 = 7 is refused"),
+        ("alpha_trim", 0.0, "alpha_trim = 0 is refused"),
+        ("w_gust", 300.0, "w_gust = 300 is refused"),
+    ];
+    for (name, value, reason) in refused {
+        assert_eq!(slave.set_reals(&[alpha, reference(name)], &[0.05, value]), Status::Error);
+        assert!(slave.message().message.contains(reason), "{name}");
+        assert_eq!(slave.bits(), before, "{name}");
+    }
+    let (early, flying) = (Slave::exchange(&api), Slave::flying(&api));
+    for slave in [early, flying] {
+        assert_eq!(slave.set("alpha", 0.05), Status::Error);
+        assert!(slave.message().message.contains("alpha = 0.05 is refused"));
+    }
 }
 
 #[test]

@@ -21,7 +21,8 @@ fn senseless_steps_are_refused_and_change_nothing() {
         (infinity, 0.01, "currentCommunicationPoint = inf"),
         (0.0, 0.01, "currentCommunicationPoint = 0"),
         (0.02, 0.01, "currentCommunicationPoint = 0.02"),
-        (f64::MAX, f64::MAX, "currentCommunicationPoint = 1797"),
+        (f64::MAX, 0.01, "currentCommunicationPoint = 1797"),
+        (0.01, f64::MAX, "a positive number up to 1e30"),
     ];
     for (point, step, reason) in refused {
         assert_eq!(slave.step(point, step), Status::Error, "{reason}");
@@ -47,6 +48,49 @@ fn rounding_in_the_communication_point_is_accepted_and_the_step_ends_exactly_at_
         assert_eq!(multiplied.step(point, step), Status::Ok);
         assert_eq!(multiplied.last_successful_time(), point + step);
     }
+}
+
+/// `round(t, 9)` in Python.
+fn rounded(t: f64) -> f64 {
+    format!("{t:.9}").parse().unwrap()
+}
+
+#[test]
+fn points_rounded_by_the_master_are_the_same_instant_and_nothing_drifts_for_it() {
+    let api = Api::load();
+    for (rate, steps) in [(60_i32, 60), (60_000, 100_000)] {
+        let step = 1.0 / f64::from(rate);
+        let (round, exact) = (Slave::flying(&api), Slave::flying(&api));
+        for i in 0..steps {
+            let point = rounded(f64::from(i) * step);
+            assert_eq!(round.step(point, step), Status::Ok, "{:?}", round.log());
+            assert_eq!(round.last_successful_time(), point + step);
+            assert!((round.last_successful_time() - f64::from(i + 1) * step).abs() < 1e-9);
+        }
+        let end = round.last_successful_time();
+        assert_eq!(exact.step(0.0, end), Status::Ok);
+        for name in ["V", "alpha", "q", "h"] {
+            let (a, b) = (round.get(name), exact.get(name));
+            assert!((a - b).abs() < 1e-9 * (1e-3 + b.abs()), "{rate} Hz: {name} {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn a_point_a_millionth_of_the_step_off_is_accepted_early_or_late_and_a_thousandth_is_not() {
+    let api = Api::load();
+    let slave = Slave::flying(&api);
+    let mut time = 0.0;
+    for (off, step) in [(3e-12, 1e-3), (-3e-12, 1e-3), (1e-6, 1.0), (-1e-6, 1.0), (1e-9, 1e-5)] {
+        let point = time + 0.99 * off;
+        assert_eq!(slave.step(point, step), Status::Ok, "{off} {:?}", slave.log());
+        assert_eq!(slave.last_successful_time(), point + step);
+        time = point + step;
+        assert_eq!(slave.step(time + 1e-3 * step + 2e-9, step), Status::Error);
+        assert_eq!(slave.step(time - 1e-3 * step - 2e-9, step), Status::Error);
+        slave.log();
+    }
+    assert_eq!(slave.step(time - 1e-10, 1e-10), Status::Error, "a whole step is no rounding");
 }
 
 #[test]

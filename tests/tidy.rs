@@ -157,7 +157,8 @@ fn tidy_errata_count_on_and_name_tests_that_exist() {
 fn tidy_every_pain_in_the_table_has_tests_that_exist() {
     let code = tested();
     let page = read("tests/README.md");
-    let (_, table) = page.split_once("| pain |").expect("the table of pains");
+    let (_, rest) = page.split_once("| pain |").expect("the table of pains");
+    let table = rest.split("\n\n").next().unwrap_or_default();
     let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).collect();
     assert!(rows.len() > 10, "the table of pains");
     for row in rows {

@@ -18,10 +18,11 @@ const WATCHED: &str = "40";
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 
 /// Tests of the shared library; not `abi_reload`, which measures memory that the tools use too.
-const TESTS: [&str; 7] = [
+const TESTS: [&str; 8] = [
     "abi_fuzz",
     "abi_lifecycle",
     "abi_logging",
+    "abi_refusals",
     "abi_state",
     "abi_steps",
     "abi_threads",
@@ -37,10 +38,14 @@ fn tests(names: &[&str]) -> Command {
     command
 }
 
-/// Random sequences of calls, at full speed.
+/// Random sequences of calls, at full speed, and what only an optimised library can do wrong.
 pub fn fuzz() -> Result<()> {
     let wanted = std::env::var(SEQUENCES).unwrap_or_else(|_| FUZZ.to_string());
-    check(tests(&["abi_fuzz"]).args(["--release", "--", "--nocapture"]).env(SEQUENCES, wanted))
+    check(
+        tests(&["abi_fuzz", "abi_host"])
+            .args(["--release", "--", "--nocapture"])
+            .env(SEQUENCES, wanted),
+    )
 }
 
 /// The run-time library of AddressSanitizer, if this toolchain brings it.

@@ -111,7 +111,7 @@ pub struct Fly {
     /// Directory for the results [default: target/flight]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Communication step, s [default: that of the FMU]
+    /// Communication step, s [default: 0.01]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Stop time, s [default: that of the FMU]

@@ -16,6 +16,9 @@ use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
+/// Communication step, s, where nobody asks for another: rows that show the third mode.
+pub const STEP: f64 = 0.01;
+
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
@@ -27,7 +30,7 @@ pub fn run(options: &Fly) -> Result<()> {
     can_write(&directory.join("flight.csv"))?;
     let model = &fmu.model;
     let default = &model.experiment;
-    let step = positive("--step", options.step.or(default.step_size))?;
+    let step = positive("--step", options.step.or(Some(STEP)))?;
     let stop = positive("--stop", options.stop.or(default.stop_time))?;
     let tolerance = positive("--tolerance", options.tolerance.or(default.tolerance))?;
     let settings = settings::parse(model, &options.set.settings)?;

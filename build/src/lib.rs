@@ -17,6 +17,7 @@ pub mod hints;
 pub mod licenses;
 pub mod manoeuvre;
 pub mod master;
+mod masters;
 pub mod model_description;
 pub mod modes;
 pub mod own;

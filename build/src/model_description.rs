@@ -33,8 +33,6 @@ pub struct CoSimulation {
 pub struct Experiment {
     #[serde(rename = "@stopTime")]
     pub stop_time: Option<f64>,
-    #[serde(rename = "@stepSize")]
-    pub step_size: Option<f64>,
     #[serde(rename = "@tolerance")]
     pub tolerance: Option<f64>,
 }

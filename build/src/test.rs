@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::python;
 use crate::workspace::{cargo, check, root, target, works};
-use crate::{abuse, describe, package, research, say};
+use crate::{abuse, describe, masters, package, research, say};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::process::Command;
@@ -46,12 +46,9 @@ const STEPS: [Step; 17] = [
     }),
     ("Python lints", Always, |_| python_lints()),
     ("FMI headers", Always, |_| fmi_headers()),
-    ("FMU tests", Always, |_| {
-        let others = ["tests/fmu/examples", MASTERS].map(|path| format!("--ignore={path}"));
-        pytest(&["tests/fmu", &others[0], &others[1]])
-    }),
-    ("masters", Thorough, |_| pytest(&[MASTERS])),
+    ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
+    ("other masters", Thorough, |_| masters::fly()),
     ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
     ("sanitizer", Thorough, |_| abuse::sanitizer()),
     ("valgrind", Thorough, |_| abuse::valgrind()),
@@ -66,8 +63,6 @@ const STEPS: [Step; 17] = [
     }),
 ];
 
-/// Masters beyond FMPy, which need more than Python.
-const MASTERS: &str = "tests/fmu/test_masters.py";
 const WINDOWS: &str = "Windows";
 
 pub fn run(options: &Test) -> Result<()> {

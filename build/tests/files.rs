@@ -99,7 +99,7 @@ fn input_without_end_is_refused_at_once() {
 fn output_that_cannot_be_written_is_an_error_and_a_closed_pipe_is_none() {
     let tool = env!("CARGO_BIN_EXE_ahv");
     for arguments in
-        [["trim"].as_slice(), &["modes", "--json"], &["poles"], &["--help"], &["fit", "--help"]]
+        [["trim"].as_slice(), &["modes", "--json"], &["poles"], &["--help"], &["fly", "--help"]]
     {
         let full = fs::File::options().write(true).open("/dev/full").unwrap();
         let done = Command::new(tool).args(arguments).stdout(full).output().unwrap();

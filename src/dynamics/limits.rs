@@ -1,12 +1,62 @@
-//! Where the model holds.
+//! Where the model holds, and where it has numbers at all.
 
 use super::stream::Stream;
-use super::{Airframe, Control, FUEL, Gust, State, Vehicle};
+use super::{Airframe, Control, FUEL, Gust, STATES, State, Vehicle};
 use crate::envelope::{Limited, tightest};
 use crate::modes::SLOSH;
 
 /// Outputs that show the displacement of the liquid in the fore and aft tank.
 const SLOSH_NAMES: [&str; SLOSH] = ["slosh1", "slosh2"];
+
+/// Names of the states in the variable table.
+pub const STATE_NAMES: [&str; STATES] = [
+    "V",
+    "h",
+    "gamma",
+    "alpha",
+    "q",
+    "eta1",
+    "eta1_dot",
+    "eta2",
+    "eta2_dot",
+    "eta3",
+    "eta3_dot",
+    "eta_slosh1",
+    "eta_slosh1_dot",
+    "eta_slosh2",
+    "eta_slosh2_dot",
+    "fuel_mass",
+];
+
+/// Size up to which a state, in its unit, leaves every term of the equations finite: a power of two.
+const FAR: f64 = (1_u64 << 33) as f64;
+/// Slowest speed, m/s, for which the equations have numbers: faster than any gust, so that the air
+/// comes from ahead.
+const SLOWEST: f64 = 500.0;
+/// Lowest altitude likewise, m: above the earth's centre.
+const LOWEST: f64 = -1e6;
+
+/// Whether a trial state of our own integrator is so small that nothing overflows. Of one that is too
+/// large, over `FAR` and by two, the exponent has its highest bit.
+#[inline(always)]
+pub fn is_finite(x: &State) -> bool {
+    const HIGHEST: u64 = 1 << 62;
+    let bits = x.iter().fold(0, |bits, value| bits | (value * (2.0 / FAR)).to_bits());
+    bits & HIGHEST == 0
+}
+
+/// The first state for which the equations have no numbers. An integrator from outside may look far
+/// beyond the region in which they hold.
+pub fn numberless(x: &State) -> Option<Limited> {
+    let least = |i: usize| match i {
+        0 => SLOWEST,
+        1 => LOWEST,
+        _ => -FAR,
+    };
+    (0..STATES)
+        .map(|i| Limited { variable: STATE_NAMES[i], value: x[i], limits: [least(i), FAR] })
+        .find(|limited| limited.margin() < 0.0)
+}
 
 impl Vehicle {
     /// The state as moving air meets it: speed through the air for V, incidence to it for alpha. Still
@@ -59,11 +109,16 @@ impl Vehicle {
             && self.choking(x, u, gust).is_none_or(|limited| limited.margin() >= 0.0)
     }
 
-    /// The quantity that is outside its limits or, inside all, next to them.
-    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
+    /// All quantities that have limits.
+    pub fn limited(&self, x: &State, u: &Control, gust: Gust) -> impl Iterator<Item = Limited> {
         let met = Self::as_met(x, gust);
         let sloshing = (self.modes > crate::modes::FLEXIBLE).then(|| self.sloshing(x));
         let others = sloshing.into_iter().flatten().chain(self.choking(x, u, gust));
-        tightest(self.aero.envelope.tightest(&self.atmosphere, &met), others)
+        self.aero.envelope.limited(&self.atmosphere, &met).into_iter().chain(others)
+    }
+
+    /// The quantity that is outside its limits or, inside all, next to them.
+    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
+        tightest(self.limited(x, u, gust))
     }
 }

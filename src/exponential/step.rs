@@ -74,7 +74,7 @@ impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
     #[inline(always)]
     fn reach<const STAGE: usize>(&self) -> Reached<N> {
         let (linear, blocks) = (&self.method.linear, &self.method.linear.blocks);
-        let (node, Attempt { system, x, slope, t, h, .. }) = (node(STAGE), self.attempt);
+        let (node, Attempt { x, slope, t, h, .. }) = (node(STAGE), self.attempt);
         let row = &self.method.weights[ROWS[STAGE]..ROWS[STAGE + 1]];
         // Sums of functions of L: multiples of one, and of L.
         let (mut moved, mut linear_in) = ([0.0; N], [0.0; N]);
@@ -100,7 +100,7 @@ impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
             time = *h;
         }
         let state = sum_of(x, &linear.to_states(&moved));
-        let rates = system.derivatives(t + time, &state);
+        let rates = self.attempt.rates(t + time, &state);
         let change = linear.to_coordinates(&difference_of(&rates, slope));
         let d = difference_of(&change, &drift);
         Reached { state, rates, d }
@@ -134,8 +134,11 @@ impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
         let missed = std::array::from_fn(|i| {
             let [cubic, parabola] =
                 [quadrature(&DIFFERENCES[0], i), quadrature(&DIFFERENCES[1], i)];
-            let falls = (cubic / parabola).abs();
-            cubic * (QUADRATURE * falls).min(1.0) + STAGE_SHARE * (end.d[i] - rest[EARLY][i])
+            // A coordinate at rest has neither: the divisor stays above zero, not the division behind a
+            // condition, which a compiler would speculate.
+            let size = parabola.abs().max(f64::MIN_POSITIVE);
+            let falls = (QUADRATURE * cubic.abs()).min(size) / size;
+            cubic * falls + STAGE_SHARE * (end.d[i] - rest[EARLY][i])
         });
         let error = self.error(&end.state, &missed);
         Trial { next: end.state, slope: Some(end.rates), error, order: 5 }

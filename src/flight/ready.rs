@@ -9,19 +9,19 @@ use crate::linear::Linear;
 use crate::modes::{FLEXIBLE, MODES, SLOSH};
 use crate::parameters::{InputMode, Offsets, Parameters};
 use crate::trim::{self, Trim};
-use crate::vehicle::Data;
+use crate::vehicle::{Build, Data};
 
 /// An initialised flight's vehicle.
 #[derive(Debug, Clone)]
 pub struct Ready {
-    pub vehicle: Vehicle,
+    pub vehicle: Box<Vehicle>,
     pub trim: Trim,
     /// Initial state: the trim with its offsets.
     pub start: State,
     /// What the inputs are added to: the trim where they are deviations.
     pub base: Control,
     /// Integrates between the master's instants.
-    pub method: Exponential<STATES, SLOW, FAST>,
+    pub method: Box<Exponential<STATES, SLOW, FAST>>,
 }
 
 impl Ready {
@@ -29,7 +29,7 @@ impl Ready {
     fn new(data: &Data, parameters: &Parameters) -> Result<Self, Error> {
         let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
             *parameters;
-        let vehicle = Vehicle::new(data, &build)?;
+        let vehicle = built(data, &build)?;
         let steady = if trimmed {
             trim::trim(&vehicle, &build.condition)?
         } else {
@@ -45,7 +45,7 @@ impl Ready {
         let mut start = steady.state;
         disturb(&vehicle, &mut start, &offsets);
         if !vehicle.holds(&start, &steady.control, [0.0; GUSTS]) {
-            return Err(start_outside(&vehicle, &start, &steady.control, parameters));
+            return Err(start_outside(&vehicle, &start, &steady, parameters));
         }
         let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
         let base = if deviation { steady.control } else { [0.0; 2] };
@@ -54,13 +54,13 @@ impl Ready {
             // Of the condition, so that a start from it flies as one with trim does.
             false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
         };
-        let method = method(&vehicle, &about);
+        let method = boxed(&vehicle, &about);
         Ok(Self { vehicle, trim: steady, start, base, method })
     }
 
     /// What is in the slot; an empty one is filled, and the state becomes the initial one.
     pub fn of<'a>(
-        slot: &'a mut Option<Self>,
+        slot: &'a mut Option<Box<Self>>,
         state: &mut State,
         data: &Data,
         parameters: &Parameters,
@@ -68,7 +68,7 @@ impl Ready {
         match slot {
             Some(ready) => Ok(ready),
             None => {
-                let ready = Self::new(data, parameters)?;
+                let ready = Box::new(Self::new(data, parameters)?);
                 *state = ready.start;
                 Ok(slot.insert(ready))
             }
@@ -76,10 +76,22 @@ impl Ready {
     }
 }
 
+/// A vehicle, in a frame of its own: putting it together takes several times its room.
+#[inline(never)]
+fn built(data: &Data, build: &Build) -> Result<Box<Vehicle>, Error> {
+    Ok(Box::new(Vehicle::new(data, build)?))
+}
+
 /// Incidence, pitch rate and modes: the states that move fast.
 const FAST: usize = 2 + 2 * MODES;
 /// Those before them.
 const SLOW: usize = RIGID - 2;
+
+/// The method for a vehicle, likewise.
+#[inline(never)]
+fn boxed(vehicle: &Vehicle, steady: &Trim) -> Box<Exponential<STATES, SLOW, FAST>> {
+    Box::new(method(vehicle, steady))
+}
 
 /// The method for a vehicle, its fast motion decoupled about steady flight.
 pub fn method(vehicle: &Vehicle, steady: &Trim) -> Exponential<STATES, SLOW, FAST> {
@@ -116,43 +128,51 @@ fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
 fn start_outside(
     vehicle: &Vehicle,
     start: &State,
-    control: &Control,
+    steady: &Trim,
     parameters: &Parameters,
 ) -> Error {
+    let still = [0.0; GUSTS];
     let Limited { variable, value, limits: [min, max] } =
-        vehicle.tightest(start, control, [0.0; GUSTS]);
-    let offsets = &parameters.offsets;
+        vehicle.tightest(start, &steady.control, still);
+    let (offsets, build) = (&parameters.offsets, &parameters.build);
     // The flexible mode that moves the liquid of a tank most.
     let bent = |tank: usize| {
         let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
         (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
     };
-    let eta0 = match variable {
-        "slosh1" if !parameters.trim => bent(0),
-        "slosh2" if !parameters.trim => bent(1),
-        _ => None,
+    let sloshing = |tank: usize| {
+        let (name, offset) = [("slosh1_offset", 0), ("slosh2_offset", 1)]
+            .map(|(name, tank)| (name, offsets.displacement[FLEXIBLE + tank]))[tank];
+        match bent(tank).filter(|_| !parameters.trim) {
+            _ if offset != 0.0 => (name, offset),
+            Some(i) => (["eta10", "eta20", "eta30"][i], parameters.eta0[i]),
+            None if build.slosh_frequency > 0.0 => ("slosh_frequency", build.slosh_frequency),
+            None => ("fuel_fraction", build.fuel_fraction),
+        }
     };
-    let name = match variable {
-        "h" => "altitude0",
-        "mach" => "mach0",
-        "alpha" if parameters.trim || offsets.alpha != 0.0 => "alpha_offset",
-        "alpha" => "alpha0",
-        "slosh1" if offsets.displacement[FLEXIBLE] != 0.0 => "slosh1_offset",
-        "slosh2" if offsets.displacement[FLEXIBLE + 1] != 0.0 => "slosh2_offset",
-        "slosh1" | "slosh2" => eta0.map_or("fuel_fraction", |i| ["eta10", "eta20", "eta30"][i]),
-        _ => "mach0",
+    let (name, given) = match variable {
+        "h" => ("altitude0", value),
+        "mach" => ("mach0", build.condition.mach),
+        "alpha" if parameters.trim || offsets.alpha != 0.0 => ("alpha_offset", offsets.alpha),
+        "alpha" => ("alpha0", value),
+        "slosh1" => sloshing(0),
+        "slosh2" => sloshing(1),
+        // The burner chokes: for the incidence, or for the fuel that the trim takes.
+        _ if offsets.alpha != 0.0 && vehicle.holds(&steady.state, &steady.control, still) => {
+            ("alpha_offset", offsets.alpha)
+        }
+        _ if parameters.trim => ("phi_trim", steady.control[1]),
+        _ => ("alpha0", parameters.alpha0),
     };
-    let given = match name {
-        "alpha_offset" => offsets.alpha,
-        "slosh1_offset" => offsets.displacement[FLEXIBLE],
-        "slosh2_offset" => offsets.displacement[FLEXIBLE + 1],
-        "fuel_fraction" => parameters.build.fuel_fraction,
-        "mach0" => parameters.build.condition.mach,
-        "eta10" | "eta20" | "eta30" => eta0.map_or(0.0, |i| parameters.eta0[i]),
-        _ => value,
+    let remedy = match name {
+        "phi_trim" => "; the burner chokes: choose another mach0, altitude0 or thrust_factor",
+        _ => "",
     };
-    let expected = format!(
-        "it makes {variable} {value:.6} at the start; the model holds in [{min:.6}, {max:.6}]"
-    );
+    let limit = match max {
+        f64::INFINITY => format!("from {min:.6} up"),
+        _ => format!("in [{min:.6}, {max:.6}]"),
+    };
+    let expected =
+        format!("it makes {variable} {value:.6} at the start; the model holds {limit}{remedy}");
     Error::Value { variable: name.into(), value: given, expected }
 }

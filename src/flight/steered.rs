@@ -1,7 +1,7 @@
 //! The vehicle as the integrator sees it.
 
 use super::{INPUTS, Inputs};
-use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle};
+use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle, is_finite};
 use crate::integrate::System;
 
 /// A vehicle under the controls of one step.
@@ -22,14 +22,15 @@ impl Steered<'_> {
     }
 }
 
-/// Controls, cut to the actuators' limits, and gust.
+/// Controls, cut to the actuators' limits, and gust, cut to the fastest: the inputs themselves follow
+/// their derivatives wherever these lead.
 pub(super) fn in_effect(
     vehicle: &Vehicle,
     base: &Control,
     inputs: &[f64; INPUTS],
 ) -> (Control, Gust) {
     let (control, gust) = Inputs::split(inputs);
-    (vehicle.saturate([base[0] + control[0], base[1] + control[1]]), gust)
+    (vehicle.saturate([base[0] + control[0], base[1] + control[1]]), Vehicle::gust(gust))
 }
 
 impl System<STATES> for Steered<'_> {
@@ -43,6 +44,10 @@ impl System<STATES> for Steered<'_> {
     }
     fn nominal(&self) -> &State {
         &NOMINAL
+    }
+    #[inline(always)]
+    fn has_numbers(&self, x: &State) -> bool {
+        is_finite(x)
     }
     fn steady(&self) -> bool {
         self.held.is_some()

@@ -1,7 +1,7 @@
 //! Derivatives of everything that a flight shows, exact by dual numbers.
 
 use super::{Flight, INPUTS, Inputs, Sample};
-use crate::dynamics::State;
+use crate::dynamics::{Gust, State};
 use crate::error::Error;
 use crate::scalar::Dual;
 
@@ -10,25 +10,24 @@ impl Flight {
     /// whose numbers are derivatives, exact by dual numbers. Parameters and what is computed from
     /// them alone do not change and are not to be read from it.
     ///
-    /// A control beyond its limit answers nothing.
+    /// An input beyond its limit changes nothing.
     ///
     /// # Errors
-    /// Those of [`Flight::initialise`], if the flight is not initialised yet.
+    /// Those of [`Flight::evaluate`].
     pub fn tangent(&mut self, change: &State, input_change: &[f64; INPUTS]) -> Result<Self, Error> {
         self.initialise()?;
-        let mut tangent = self.clone();
-        tangent.state = *change;
-        tangent.inputs.values = *input_change;
-        tangent.slope = None;
-        tangent.sample = self.ready.as_ref().map(|ready| {
+        self.check_numbers()?;
+        let sample = self.ready.as_ref().map(|ready| {
             let vehicle = &ready.vehicle;
             let (base, (control, gust)) = (ready.base, self.control(ready));
-            let (moved, gust_change) = Inputs::split(input_change);
+            let (moved, blown) = Inputs::split(input_change);
+            let (wanted, wind) = Inputs::split(&self.inputs.values);
             let control_change = std::array::from_fn(|i| {
                 let [min, max] = vehicle.ranges()[i];
-                let wanted = base[i] + self.inputs.values[i];
-                if (min..=max).contains(&wanted) { moved[i] } else { 0.0 }
+                if (min..=max).contains(&(base[i] + wanted[i])) { moved[i] } else { 0.0 }
             });
+            let gust_change: Gust =
+                std::array::from_fn(|i| if gust[i] == wind[i] { blown[i] } else { 0.0 });
             let x = std::array::from_fn(|i| Dual { re: self.state[i], eps: [change[i]] });
             let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
             let w = std::array::from_fn(|i| Dual { re: gust[i], eps: [gust_change[i]] });
@@ -40,7 +39,17 @@ impl Flight {
                 control: control_change,
             }
         });
-        Ok(tangent)
+        Ok(Self {
+            data: self.data.clone(),
+            parameters: self.parameters,
+            inputs: Inputs { values: *input_change, ..self.inputs },
+            time: self.time,
+            integrator: self.integrator,
+            state: *change,
+            ready: None,
+            slope: None,
+            sample,
+        })
     }
 
     /// The change of everything that is shown per second, at the inputs' present rates.

@@ -3,13 +3,12 @@
 //! There are no events: saturation depends on inputs alone and leaves the rates continuous, so no
 //! indicator could tell an integrator anything about its states.
 
-use crate::dynamics::{NOMINAL, STATES, State};
+use crate::dynamics::{NOMINAL, STATE_NAMES, STATES, State};
 use crate::error::Error;
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Phase;
 use crate::fmi::sys::Status;
-use crate::variables::{TABLE, known_rows};
 
 /// Number of event indicators.
 pub const EVENT_INDICATORS: usize = 0;
@@ -41,7 +40,9 @@ impl Instance {
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         match self.flight.check() {
             Ok(()) => Ok(false),
-            Err(error @ (Error::Envelope { .. } | Error::Fuel { .. })) => {
+            Err(
+                error @ (Error::Envelope { .. } | Error::Fuel { .. } | Error::Numberless { .. }),
+            ) => {
                 self.life.ended = true;
                 self.log.push(Status::Discard, || format!("fmi2CompletedIntegratorStep: {error}"));
                 Ok(true)
@@ -69,12 +70,11 @@ impl Instance {
     /// `fmi2SetContinuousStates`.
     ///
     /// # Errors
-    /// [`Failure::Argument`], [`Failure::Seed`]; the state is then as it was.
+    /// [`Failure::Argument`], [`Failure::State`]; the state is then as it was.
     pub fn set_continuous_states(&mut self, states: &[f64]) -> Outcome {
         let state: &State = states.try_into().map_err(|_| count("nx", states.len(), STATES))?;
-        if let Some(i) = state.iter().position(|value| !value.is_finite()) {
-            let variable = TABLE[known_rows()[i]].name;
-            return Err(Failure::Seed { variable, value: state[i] });
+        for (variable, &value) in STATE_NAMES.into_iter().zip(state) {
+            check_state(variable, value)?;
         }
         self.flight.set_state(state);
         Ok(())
@@ -83,17 +83,14 @@ impl Instance {
     /// `fmi2GetDerivatives`.
     ///
     /// # Errors
-    /// [`Failure::Argument`], [`Failure::Trial`]; [`Failure::Model`] if the model cannot be
-    /// evaluated. No value is written then.
+    /// [`Failure::Argument`]; [`Failure::Model`] if the model cannot be evaluated, as at a trial state
+    /// without numbers; [`Failure::NotFinite`]. No value is written then.
     pub fn derivatives(&mut self, length: usize) -> Result<State, Failure> {
         expect("nx", length, STATES)?;
         self.flight.evaluate()?;
         let rates = self.flight.sample().map_or([0.0; STATES], |sample| sample.derivatives);
         match rates.iter().position(|value| !value.is_finite()) {
-            Some(i) => {
-                let value = rates[i];
-                Err(Failure::Trial { variable: TABLE[known_rows()[i]].name, value })
-            }
+            Some(i) => Err(Failure::NotFinite { variable: STATE_NAMES[i], value: rates[i] }),
             None => Ok(rates),
         }
     }
@@ -129,6 +126,11 @@ impl Instance {
     pub fn ended(&self) -> bool {
         self.life.ended
     }
+}
+
+/// Whether a master's integrator can try a state.
+pub(super) fn check_state(variable: &'static str, value: f64) -> Outcome {
+    if value.is_finite() { Ok(()) } else { Err(Failure::State { variable, value }) }
 }
 
 fn count(argument: &'static str, given: usize, needed: usize) -> Failure {

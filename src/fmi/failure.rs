@@ -1,6 +1,7 @@
 //! What a call can be refused for. The text is what a user reads in the master's log.
 
 use crate::error::Error;
+use crate::fmi::instance::LARGEST;
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::fmi::sys::{Status, StatusKind};
 use crate::short::short;
@@ -24,10 +25,12 @@ pub enum Failure {
     #[error("call fmi2SetupExperiment first, it gives the start time")]
     NoExperiment,
     /// A pointer that has to lead somewhere is NULL, or misaligned, or its length is absurd.
-    #[error("argument {argument} is NULL or does not point to an array of the length given")]
+    #[error("argument {argument} is NULL or does not point to {place}")]
     BadPointer {
         /// Name of the argument in the standard.
         argument: &'static str,
+        /// What it should point to.
+        place: &'static str,
     },
     /// An argument has a value that makes no sense.
     #[error("{argument} = {} is refused: {expected}", short(*value))]
@@ -72,11 +75,11 @@ pub enum Failure {
         value: f64,
     },
     /// A derivative with respect to, or of, what is not served.
-    #[error("{variable} is not served {served}")]
+    #[error("{variable} {served}")]
     NoDerivative {
         /// Name of the variable.
         variable: &'static str,
-        /// What is served in its place.
+        /// What it cannot be, and what can.
         served: &'static str,
     },
     /// A derivative of an order that is not served.
@@ -89,10 +92,25 @@ pub enum Failure {
         /// The highest order there is.
         highest: usize,
     },
-    /// A direction or derivative that is no number.
-    #[error("change of {variable} = {} is refused: a finite number is needed", short(*value))]
+    /// A direction or derivative that is no number, or too large a one.
+    #[error(
+        "change of {variable} = {} is refused: a finite number is needed, of a size up to \
+         {LARGEST:e}",
+        short(*value)
+    )]
     Seed {
         /// Name of the variable.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
+    /// A trial state that is no number.
+    #[error(
+        "{variable} = {} is refused: a state is a finite number; take a shorter step",
+        short(*value)
+    )]
+    State {
+        /// Name of the state.
         variable: &'static str,
         /// The refused value.
         value: f64,
@@ -108,7 +126,7 @@ pub enum Failure {
     /// The communication point is not where the last step ended.
     #[error(
         "currentCommunicationPoint = {asked} s and communicationStepSize = {step} s do not \
-         continue from the instance's time {time} s"
+         continue from the instance's time {time} s; a step begins where the last one ended"
     )]
     CommunicationPoint {
         /// Communication point given.
@@ -135,8 +153,8 @@ pub enum Failure {
     /// The model refuses.
     #[error(transparent)]
     Model(#[from] Error),
-    /// Status information that synchronous steps do not have.
-    #[error("status kind {} is not available as {asked}: no step is ever pending", kind.0)]
+    /// Status information that synchronous steps do not have, or not of this type.
+    #[error("status kind {} is not available as {asked}: {}", kind.0, elsewhere(*kind))]
     NoStatus {
         /// What was asked for.
         kind: StatusKind,
@@ -166,14 +184,6 @@ pub enum Failure {
         /// State of the instance that it was taken of.
         phase: Phase,
     },
-    /// The master's integrator tries a state for which the model has no numbers.
-    #[error("{variable} = {value}: the model has no finite value at this trial state")]
-    Trial {
-        /// Name of the variable.
-        variable: &'static str,
-        /// What was computed.
-        value: f64,
-    },
     /// Bytes that are no FMU state of this model.
     #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
     Bytes {
@@ -189,9 +199,21 @@ impl Failure {
     /// go on with a value that was not taken.
     pub fn status(&self) -> Status {
         match self {
-            Self::Incomplete(_) | Self::NoStatus { .. } | Self::Trial { .. } => Status::Discard,
+            // The master's integrator tries a state without numbers: it can take a shorter step.
+            Self::Model(Error::Numberless { .. }) => Status::Discard,
+            Self::Incomplete(_) | Self::NoStatus { .. } => Status::Discard,
             _ => Status::Error,
         }
+    }
+}
+
+/// Why a kind of status is not available, and where else it is.
+fn elsewhere(kind: StatusKind) -> &'static str {
+    match kind {
+        StatusKind::LAST_SUCCESSFUL_TIME => "call fmi2GetRealStatus",
+        StatusKind::TERMINATED => "call fmi2GetBooleanStatus",
+        StatusKind::DO_STEP_STATUS | StatusKind::PENDING_STATUS => "no step is ever pending",
+        _ => "there are 0 to 3",
     }
 }
 

@@ -1,25 +1,21 @@
 //! One instance: its experiment, its steps and its status.
 
-use crate::dynamics::STATES;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
+use crate::fmi::clock::same_instant;
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
-use crate::variables::{TABLE, known_rows};
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this
 /// range, as a setup that works must not warn.
 pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 
-/// Two instants this close, over the step, are the same: masters add up communication points in
-/// different ways, or pass them on as decimal text.
-pub const SAME_INSTANT: f64 = 1e-9;
-/// So are two that are this many roundings apart.
-const ROUNDINGS: f64 = 64.0;
+/// Largest step (s), rate of an input or change that is taken: what is made of it does not overflow.
+pub const LARGEST: f64 = 1e30;
 
 /// What an instance remembers besides the flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,6 +74,11 @@ impl Instance {
             limit_said: false,
             log,
         })
+    }
+
+    /// Whether the master integrates, and is at it.
+    pub(super) fn exchanging(&self) -> bool {
+        matches!(self.life.phase, Phase::EventMode | Phase::ContinuousTimeMode)
     }
 
     /// State in the standard's table.
@@ -192,44 +193,37 @@ impl Instance {
     }
 
     /// `fmi2DoStep`. Rounding in `point` is accepted; the step then starts at the instance's own
-    /// time, and ends exactly at `point + step`.
+    /// time, and ends exactly at `point + step`: the clock follows the master's, and what one point was
+    /// rounded by is not in the next.
     ///
     /// # Errors
     /// [`Failure::Argument`], [`Failure::CommunicationPoint`] and [`Failure::PastStop`] change
     /// nothing. After [`Failure::Incomplete`] time and state are those of the last valid instant.
     pub fn do_step(&mut self, point: f64, step: f64) -> Outcome {
         let time = self.flight.time();
-        if !(step > 0.0 && step.is_finite()) {
+        if !(step > 0.0 && step <= LARGEST) {
             return Err(Failure::Argument {
                 argument: "communicationStepSize",
                 value: step,
-                expected: "a positive number is needed".to_string(),
+                expected: format!("a positive number up to {LARGEST:e} is needed"),
             });
         }
+        if !(point.is_finite() && same_instant(point, time, step)) {
+            return Err(Failure::CommunicationPoint { asked: point, step, time });
+        }
         let end = point + step;
-        let same = |a: f64, b: f64| {
-            let rounding = ROUNDINGS * f64::EPSILON * a.abs().max(b.abs());
-            (a - b).abs() <= rounding.max(SAME_INSTANT * step)
-        };
-        if !(end.is_finite() && same(point, time) && end >= time) {
+        if end < time {
             return Err(Failure::CommunicationPoint { asked: point, step, time });
         }
         if let Some(stop) = self.life.stop
             && end > stop
-            && !same(end, stop)
+            && !same_instant(end, stop, step)
         {
             return Err(Failure::PastStop { end, stop });
         }
         // A step below the resolution of time ends where it starts.
         if end == time {
             return Ok(());
-        }
-        let inputs = self.flight.inputs().at(end - time);
-        if let Some(i) = inputs.iter().position(|input| !input.is_finite()) {
-            return Err(Failure::NotFinite {
-                variable: TABLE[known_rows()[STATES + i]].name,
-                value: inputs[i],
-            });
         }
         if cfg!(feature = "idle") {
             self.flight.set_time(end);

@@ -7,8 +7,10 @@
 //! | [`failure`] | what a call can be refused for, as text and status |
 //! | [`log`] | categories, and messages waiting for the master's logger |
 //! | [`instance`] | one instance: set-up, steps, status |
+//! | `clock` | when two instants are the same |
 //! | [`exchange`] | model exchange: the master integrates |
 //! | [`values`] | reading and setting variables |
+//! | [`derivatives`] | directional derivatives, those of inputs and outputs by time |
 //! | [`snapshot`] | the FMU state and its bytes |
 //! | [`guard`] | legal order, panics and failures become a status and a message |
 //! | `abi` | the exported functions: the only unsafe code of the crate |
@@ -23,6 +25,8 @@
 
 mod abi;
 mod advice;
+mod clock;
+pub mod derivatives;
 pub mod exchange;
 pub mod failure;
 pub mod guard;

@@ -18,9 +18,9 @@
 use crate::dynamics::STATES;
 use crate::flight::{Flight, INPUT_ORDER, INPUTS, Snapshot};
 use crate::fmi::failure::Failure;
-use crate::fmi::instance::{Life, TOLERANCES};
+use crate::fmi::instance::{LARGEST, Life, TOLERANCES};
 use crate::fmi::lifecycle::{PHASES, Phase};
-use crate::variables::{MODEL_HASH, TABLE, Variable};
+use crate::variables::{MODEL_HASH, Role, TABLE, Variable};
 
 const MAGIC: [u8; 8] = *b"AHVSTATE";
 const VERSION: u32 = 4;
@@ -151,6 +151,8 @@ fn decode(bytes: &[u8], pristine: &Flight) -> Result<FmuState, String> {
         *number = reader.number()?;
     }
     let [least, largest] = TOLERANCES;
+    // Behind the step that they were for, they are what it made of them.
+    let fastest = if flag(AHEAD) { LARGEST } else { f64::MAX };
     expect(
         !stop.is_nan()
             && flight.time.is_finite()
@@ -158,15 +160,22 @@ fn decode(bytes: &[u8], pristine: &Flight) -> Result<FmuState, String> {
             && flight.integrator.proposal > 0.0
             && flight.integrator.proposal.is_finite()
             && flight.state.iter().all(|state| state.is_finite())
-            && flight.inputs.derivatives.iter().flatten().all(|rate| rate.is_finite()),
+            && flight.inputs.derivatives.iter().flatten().all(|rate| rate.abs() <= fastest),
         "they hold numbers that no instance has",
     )?;
     let mut scratch = pristine.clone();
     for variable in settable() {
-        variable.set(&mut scratch, reader.number()?).map_err(|error| error.to_string())?;
+        let value = reader.number()?;
+        match variable.role {
+            // Within a step it may leave the range in which it can be set.
+            Role::Input(number) => {
+                expect(value.is_finite(), &format!("{} = {value} in them", variable.name))?;
+                flight.inputs.values[number] = value;
+            }
+            _ => variable.set(&mut scratch, value).map_err(|error| error.to_string())?,
+        }
     }
     flight.parameters = *scratch.parameters();
-    flight.inputs.values = scratch.inputs().values;
     flight.inputs.ahead = flag(AHEAD);
     let stop = flag(EXPERIMENT).then_some(stop);
     Ok(FmuState { flight, life: Life { phase, stop, ended: flag(ENDED) } })

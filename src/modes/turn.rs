@@ -66,9 +66,11 @@ impl Modes {
         let count = self.count;
         let (reference, others) = reference;
         let [own, other] = [oscillators, others].map(|o| o.iter().map(|o| o.mass).sum::<f64>());
+        // Without liquid both are zero.
+        let ratio = own / other.max(f64::MIN_POSITIVE);
         let mut wanted = reference.clone();
         for shape in wanted.shape.iter_mut().skip(FLEXIBLE) {
-            shape.w.iter_mut().chain(&mut shape.slope).for_each(|part| *part *= own / other);
+            shape.w.iter_mut().chain(&mut shape.slope).for_each(|part| *part *= ratio);
         }
         let wanted = wanted.displacements(oscillators);
         let products = self.products(beam, oscillators, &wanted);
@@ -83,14 +85,14 @@ impl Modes {
         let mut rotation = nearest_rotation(overlap).ok_or_else(|| Error::Value {
             variable: "fuel_burn".into(),
             value: 1.0,
-            expected: "modes that can be followed until the tanks are empty; \
-                       choose another slosh_frequency"
+            expected: "the modes cannot be followed until the tanks are empty; \
+                       choose another slosh_frequency, or false"
                 .into(),
         })?;
 
         let mut turned = Self { shape: Vec::with_capacity(count), ..self.clone() };
         let per_root_mass: [f64; MODES] =
-            std::array::from_fn(|i| if i < count { 1.0 / self.modal_mass[i].sqrt() } else { 0.0 });
+            std::array::from_fn(|i| 1.0 / self.modal_mass[i].max(f64::MIN_POSITIVE).sqrt());
         for k in 0..count {
             let sum = |value: &dyn Fn(usize) -> f64| -> f64 {
                 (0..count).map(|i| value(i) * per_root_mass[i] * rotation[(i, k)]).sum()

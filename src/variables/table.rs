@@ -2,7 +2,7 @@
 
 use super::words::*;
 use super::{Dependencies, Kind, Variable};
-use crate::dynamics::RIGID;
+use crate::dynamics::{FASTEST_GUST, RIGID};
 use crate::flight::{Flight, Sample};
 use crate::parameters::InputMode;
 use crate::vehicle::{AeroSet, Configuration};
@@ -22,8 +22,8 @@ fn omega(flight: &Flight, mode: usize) -> f64 {
 /// All variables.
 #[rustfmt::skip]
 pub static TABLE: [Variable; 114] = [
-    input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
-    input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
+    input(0, "delta_e", ANGLE, "Elevator deflection, trailing edge down positive; deviation from trim or absolute, see input_mode; acts up to its limits, see delta_e_effective", |f| f.inputs().values[0], |f, v| f.set_input(0, v)),
+    input(1, "phi", ONE, "Fuel equivalence ratio; deviation from trim or absolute, see input_mode; acts up to its limits, see phi_effective", |f| f.inputs().values[1], |f, v| f.set_input(1, v)),
     output_state(0, "V", SPEED, "Airspeed; in a gust the speed against the air around it", |f| f.state()[0]),
     output_state(2, "gamma", ANGLE, "Flight-path angle", |f| f.state()[2]),
     output_state(5, "eta1", METRE, "First flexible mode, as nose deflection, up positive", |f| f.state()[5]),
@@ -89,7 +89,7 @@ pub static TABLE: [Variable; 114] = [
     derivative(12, "der(eta_slosh1_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 12)),
     derivative(13, "der(eta_slosh2)", SPEED, fixed(1 << 14), |f| rate(f, 13)),
     derivative(14, "der(eta_slosh2_dot)", ACCELERATION, dependent(AERODYNAMIC), |f| rate(f, 14)),
-    Variable { range: Some([-200.0, 200.0]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
+    Variable { range: Some([-FASTEST_GUST, FASTEST_GUST]), ..input(2, "w_gust", SPEED, "Vertical velocity of the air, up positive; the same along the vehicle; acts up to its range where derivatives lead beyond", |f| f.inputs().values[2], |f, v| f.set_input(2, v)) },
     output_state(15, "fuel_mass", MASS_PER_WIDTH, "Fuel on board, without what cannot be drained, per metre of width", |f| f.state()[15]),
     derivative(15, "der(fuel_mass)", MASS_FLOW_PER_WIDTH, dependent(INLET | PHI), |f| rate(f, 15)),
     parameter("fuel_burn", Kind::Boolean, None, "Fuel burns in flight; false keeps fuel_mass, and with it mass and modes, as they are at the start", |f| f64::from(f.parameters().build.fuel_burn), |f, v| f.change(|p| p.build.fuel_burn = v != 0.0)),
@@ -134,7 +134,7 @@ pub static TABLE: [Variable; 114] = [
     parameter("slosh2_offset", Kind::Real(METRE), Some([-5.0, 5.0]), "Added to the initial slosh2; the flexible modes stay", |f| f.parameters().offsets.displacement[4], |f, v| f.change(|p| p.offsets.displacement[4] = v)),
     parameter("slosh1_dot_offset", Kind::Real(SPEED), Some([-50.0, 50.0]), "Added to the initial rate of slosh1; the flexible modes stay", |f| f.parameters().offsets.rate[3], |f, v| f.change(|p| p.offsets.rate[3] = v)),
     parameter("slosh2_dot_offset", Kind::Real(SPEED), Some([-50.0, 50.0]), "Added to the initial rate of slosh2; the flexible modes stay", |f| f.parameters().offsets.rate[4], |f, v| f.change(|p| p.offsets.rate[4] = v)),
-    Variable { range: Some([-200.0, 200.0]), ..input(3, "u_gust", SPEED, "Horizontal velocity of the air along the flight direction, tail wind positive; the same along the vehicle", |f| f.inputs().values[3], |f, v| f.set_input(3, v)) },
+    Variable { range: Some([-FASTEST_GUST, FASTEST_GUST]), ..input(3, "u_gust", SPEED, "Horizontal velocity of the air along the flight direction, tail wind positive; the same along the vehicle; acts up to its range where derivatives lead beyond", |f| f.inputs().values[3], |f, v| f.set_input(3, v)) },
     output("choking_margin", ONE, "Fuel equivalence ratio that can still be added before the burner chokes; below 0 the thrust is not to be believed", dependent(INLET | PHI), |f| shown(f, |s| s.outputs.choking_margin)),
 ];
 

@@ -40,7 +40,7 @@ impl<'a> Slave<'a> {
         Self::with(api, sys::Type::CO_SIMULATION, on)
     }
 
-    fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
+    pub fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
         let sink = Box::new(Sink::default());
         let guid = CString::new(guid()).unwrap();
         let functions = callbacks(&sink);

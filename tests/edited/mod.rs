@@ -28,10 +28,11 @@ impl Texts {
 
     pub fn data(&self) -> Data {
         let [xu2015, parker2007, shock_expansion] = [0, 1, 2]
-            .map(|set| AeroData::parse("set.toml", &self.sets[set]).expect("a coefficient set"));
+            .map(|set| AeroData::parse("set.toml", &self.sets[set]).expect("a coefficient set"))
+            .map(Box::new);
         Data {
-            vehicle: VehicleData::parse("vehicle.toml", &self.vehicle).expect("a vehicle"),
-            earth: EarthData::parse("earth.toml", &self.earth).expect("an earth"),
+            vehicle: VehicleData::parse("vehicle.toml", &self.vehicle).expect("a vehicle").into(),
+            earth: EarthData::parse("earth.toml", &self.earth).expect("an earth").into(),
             xu2015,
             parker2007,
             shock_expansion,

@@ -136,4 +136,4 @@ START = {
     **{"mass_centre_shift": 0.0, "pitch_rate_factor": 0.0},
     **{f"{name}_offset": 0.0 for name in OFFSETS},
 }
-EXPERIMENT = {"startTime": 0.0, "stopTime": 2.0, "stepSize": 0.01, "tolerance": 1e-8}
+EXPERIMENT = {"startTime": 0.0, "stopTime": 2.0, "stepSize": 2e-4, "tolerance": 1e-8}

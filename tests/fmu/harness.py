@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NamedTuple, Self
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
-from fmpy import calloc, free
+import pytest
+from fmpy import calloc, extract, free
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
     FMU2Slave,
@@ -23,7 +25,12 @@ from fmpy.fmi2 import (
     fmi2Terminated,
     fmi2ValueReference,
 )
-from fmpy.model_description import ModelDescription, ModelVariable, read_model_description
+from fmpy.model_description import ModelDescription, read_model_description
+
+if TYPE_CHECKING:
+    from fmpy.model_description import ModelVariable
+
+REPOSITORY = Path(__file__).resolve().parents[2]
 
 OK, WARNING, DISCARD, ERROR = 0, 1, 2, 3
 
@@ -77,6 +84,10 @@ class Package:
             variable.name: variable for variable in self.description.modelVariables
         }
 
+    def references(self, *names: str) -> list[int]:
+        """Value references of these variables."""
+        return [self.variables[name].valueReference for name in names]
+
     def instance(self, name: str = "ahv", logging: bool = False) -> Instance:
         """A new instance, not initialised."""
         return Instance(self, name, logging)
@@ -90,6 +101,15 @@ class Package:
             flight.close()
             raise
         return flight
+
+
+def packaged(folder: Path) -> Package:
+    """The FMU under test (AHV_FMU, by default target/ahv.fmu), unzipped to `folder`."""
+    path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")).resolve()
+    if not path.is_file():
+        pytest.fail(f"{path} does not exist: run `cargo ahv package` or set AHV_FMU", pytrace=False)
+    extract(str(path), unzipdir=str(folder))
+    return Package(path, folder)
 
 
 class Refused(Exception):
@@ -192,7 +212,7 @@ class Instance:
     def get(self, *names: str) -> np.ndarray:
         """Values of real variables."""
         count = len(names)
-        references = [self.package.variables[name].valueReference for name in names]
+        references = self.package.references(*names)
         values = (fmi2Real * count)()
         self.call("fmi2GetReal", (fmi2ValueReference * count)(*references), count, values)
         return np.array(values)

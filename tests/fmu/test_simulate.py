@@ -49,6 +49,7 @@ def test_verif_input_signals_reach_the_vehicle(package: Package) -> None:
         str(package.path),
         input=table,
         output=["delta_e_effective", "q", "alpha"],
+        output_interval=0.01,
         stop_time=0.3,
     )
     change = result["delta_e_effective"] - result["delta_e_effective"][0]

@@ -2,7 +2,7 @@
 
 use super::Files;
 use crate::describe::MODEL_IDENTIFIER;
-use crate::fly::positive;
+use crate::fly::{STEP, positive};
 use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::Instance;
@@ -22,7 +22,6 @@ pub fn path(ending: &str) -> String {
 /// tool flies the same.
 pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let (model, default) = (&fmu.model, &fmu.model.experiment);
-    let step = positive("step size", default.step_size)?;
     let stop = positive("stop time", default.stop_time)?;
     let tolerance = positive("tolerance", default.tolerance)?;
     let input = root().join("examples/elevator_doublet.csv");
@@ -30,7 +29,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
 
     let mut instance = Instance::new(fmu)?;
     instance.set_up(0.0, stop, tolerance)?;
-    let points = pilot::communication_points(step, stop, manoeuvre.times())?;
+    let points = pilot::communication_points(STEP, stop, manoeuvre.times())?;
     let outputs = model.with(Causality::Output);
     let mut flown = pilot::fly(&mut instance, &manoeuvre, outputs, &points)?;
     if let Some(reason) = flown.discarded {
@@ -41,7 +40,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     instance.terminate()?;
 
     let options =
-        format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{step:?}\nRelTol,{tolerance:?}\n");
+        format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{STEP:?}\nRelTol,{tolerance:?}\n");
     Ok(Files::from([
         (path("in.csv"), read(&input, TEXT)?),
         (path("ref.csv"), flown.record.csv()?.into_bytes()),

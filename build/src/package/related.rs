@@ -2,6 +2,7 @@
 //! repeat by itself (FMI Layered Standard References, 1.0.0-alpha.1).
 
 use super::{Files, cross_check};
+use crate::fly::STEP;
 use crate::model_description::ModelDescription;
 use crate::xml::Xml;
 use anyhow::Result;
@@ -66,7 +67,7 @@ fn experiments(model: &ModelDescription) -> Result<String> {
         ("startTime", Some("0".to_string())),
         ("stopTime", default.stop_time.map(|time| time.to_string())),
         ("tolerance", default.tolerance.map(|tolerance| format!("{tolerance:e}"))),
-        ("stepSize", default.step_size.map(|step| step.to_string())),
+        ("stepSize", Some(STEP.to_string())),
     ];
     let options = options.into_iter().filter_map(|(key, value)| Some((key, value?)));
     let name = [("name", "doublet".to_string()), ("description", DESCRIPTION.to_string())];

@@ -145,9 +145,9 @@ fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> 
 /// The embedded data with another fit.
 fn with_fit(inputs: &Inputs, text: &str) -> Result<Data> {
     Ok(Data {
-        shock_expansion: AeroData::parse("aero/shock_expansion.toml", text)?,
-        vehicle: inputs.vehicle.clone(),
-        earth: inputs.earth.clone(),
+        shock_expansion: AeroData::parse("aero/shock_expansion.toml", text)?.into(),
+        vehicle: inputs.vehicle.clone().into(),
+        earth: inputs.earth.clone().into(),
         ..Data::embedded()?
     })
 }

@@ -33,8 +33,10 @@ const XU2015: &str = "src/data/aero/xu2015.toml";
 /// The data as the files have them now: each identification rests on what the other one wrote.
 fn data() -> Result<Data> {
     Ok(Data {
-        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE), DATA)?)?,
-        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015), DATA)?)?,
+        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE), DATA)?)?
+            .into(),
+        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015), DATA)?)?
+            .into(),
         ..Data::embedded()?
     })
 }

@@ -71,6 +71,11 @@ fn plausible<T>(pointer: *const T, count: usize) -> bool {
     !pointer.is_null() && pointer.is_aligned() && count <= isize::MAX as usize / size_of::<T>()
 }
 
+/// What arguments point to.
+const ARRAY: &str = "an array of the length given";
+const PLACE: &str = "a place for the result";
+const TEXT: &str = "a C string";
+
 /// An array to read; no element needs no array.
 ///
 /// # Safety
@@ -84,7 +89,7 @@ pub(super) unsafe fn input<'a, T>(
         return Ok(&[]);
     }
     if !plausible(pointer, count) {
-        return Err(Failure::BadPointer { argument });
+        return Err(Failure::BadPointer { argument, place: ARRAY });
     }
     // SAFETY: plausible, and valid by this function's contract.
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
@@ -103,10 +108,22 @@ pub(super) unsafe fn output<'a, T>(
         return Ok(&mut []);
     }
     if !plausible(pointer, count) {
-        return Err(Failure::BadPointer { argument });
+        return Err(Failure::BadPointer { argument, place: ARRAY });
     }
     // SAFETY: plausible, and valid by this function's contract.
     Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+/// Room for a single result, which a master need not have initialised.
+///
+/// # Safety
+/// `pointer` is NULL or leads to room for one value that nobody else uses meanwhile.
+pub(super) unsafe fn room<'a, T>(
+    argument: &'static str,
+    pointer: *mut T,
+) -> Result<&'a mut MaybeUninit<T>, Failure> {
+    // SAFETY: by this function's contract.
+    unsafe { place(argument, pointer.cast(), PLACE) }
 }
 
 /// A single result.
@@ -115,7 +132,7 @@ pub(super) unsafe fn output<'a, T>(
 /// `pointer` is NULL or leads to room for one value.
 pub(super) unsafe fn store<T>(argument: &'static str, pointer: *mut T, value: T) -> Outcome {
     // SAFETY: by this function's contract.
-    unsafe { output(argument, pointer, 1) }?[0].write(value);
+    unsafe { room(argument, pointer) }?.write(value);
     Ok(())
 }
 
@@ -126,9 +143,10 @@ pub(super) unsafe fn store<T>(argument: &'static str, pointer: *mut T, value: T)
 pub(super) unsafe fn place<'a, T>(
     argument: &'static str,
     pointer: *mut T,
+    place: &'static str,
 ) -> Result<&'a mut T, Failure> {
     if !plausible(pointer, 1) {
-        return Err(Failure::BadPointer { argument });
+        return Err(Failure::BadPointer { argument, place });
     }
     // SAFETY: plausible, and valid by this function's contract.
     Ok(unsafe { &mut *pointer })
@@ -143,7 +161,7 @@ pub(super) unsafe fn string(
     pointer: sys::FmiString,
 ) -> Result<String, Failure> {
     if pointer.is_null() {
-        return Err(Failure::BadPointer { argument });
+        return Err(Failure::BadPointer { argument, place: TEXT });
     }
     // SAFETY: not NULL, and a C string by this function's contract.
     Ok(unsafe { CStr::from_ptr(pointer) }.to_string_lossy().into_owned())

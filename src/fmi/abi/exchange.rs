@@ -1,6 +1,6 @@
 //! Functions for model exchange only (section 3.2).
 
-use super::entry::{enter, input, output, store};
+use super::entry::{enter, input, output, room, store};
 use crate::dynamics::State;
 use crate::fmi::failure::Failure;
 use crate::fmi::instance::Instance;
@@ -47,13 +47,13 @@ pub(super) unsafe extern "C" fn fmi2CompletedIntegratorStep(
         // SAFETY: the master passes room for the answers.
         let (event, end) = unsafe {
             (
-                output("enterEventMode", enterEventMode, 1)?,
-                output("terminateSimulation", terminateSimulation, 1)?,
+                room("enterEventMode", enterEventMode)?,
+                room("terminateSimulation", terminateSimulation)?,
             )
         };
         let ends = instance.completed_integrator_step()?;
-        event[0].write(sys::FALSE);
-        end[0].write(if ends { sys::TRUE } else { sys::FALSE });
+        event.write(sys::FALSE);
+        end.write(if ends { sys::TRUE } else { sys::FALSE });
         Ok(())
     };
     // SAFETY: the master passes one of its instances.

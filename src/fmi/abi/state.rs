@@ -15,7 +15,7 @@ use core::ptr;
 /// `state` is NULL or a live FMU state of this library.
 unsafe fn given<'a>(state: sys::FmuState) -> Result<&'a mut FmuState, Failure> {
     // SAFETY: by this function's contract.
-    unsafe { place("FMUstate", state.cast::<FmuState>()) }
+    unsafe { place("FMUstate", state.cast::<FmuState>(), "an FMU state of this model") }
 }
 
 /// Puts a state where a pointer leads: into the state that is there, or else into a new one.
@@ -24,7 +24,7 @@ unsafe fn given<'a>(state: sys::FmuState) -> Result<&'a mut FmuState, Failure> {
 /// `pointer` is NULL or leads to NULL or to a live FMU state of this library.
 unsafe fn put(pointer: *mut sys::FmuState, state: FmuState) -> Outcome {
     // SAFETY: by this function's contract.
-    let slot = unsafe { place("FMUstate", pointer) }?;
+    let slot = unsafe { place("FMUstate", pointer, "a place for an FMU state") }?;
     if slot.is_null() {
         *slot = Box::into_raw(Box::new(state)).cast();
     } else {
@@ -63,7 +63,7 @@ pub(super) unsafe extern "C" fn fmi2FreeFMUstate(
             return Ok(());
         }
         // SAFETY: the master passes a place with NULL or a state that it got here.
-        let slot = unsafe { place("FMUstate", FMUstate) }?;
+        let slot = unsafe { place("FMUstate", FMUstate, "a place with an FMU state") }?;
         if !slot.is_null() {
             // SAFETY: likewise.
             let state: *mut FmuState = unsafe { given(*slot) }?;

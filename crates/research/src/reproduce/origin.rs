@@ -104,7 +104,7 @@ struct Lab<'a> {
 impl Lab<'_> {
     /// The published set with another inertia, elastic terms and mass centre.
     fn chosen(&self, column: usize, inertia: f64, elastic: f64, shift: f64) -> Chosen {
-        let mut set: AeroData = self.data.parker2007.clone();
+        let mut set: AeroData = (*self.data.parker2007).clone();
         set.inertia.i_yy_kg_m2_per_m.value = inertia;
         set.reference.elastic_scale.value *= elastic;
         let mut build = Build { configuration: CONFIGURATIONS[column], ..self.base };

@@ -64,14 +64,14 @@ impl Model {
         let build = Parameters::new(&data).build;
         let prior = Prior::new(&data.vehicle, wanted[0])?;
         // The published coefficients, on the body that they were identified for.
-        let set = AeroData { inertia: data.xu2015.inertia.clone(), ..data.parker2007.clone() };
+        let set = AeroData { inertia: data.xu2015.inertia.clone(), ..(*data.parker2007).clone() };
         Ok(Self { prior, wanted, data, build, set })
     }
 
     /// Flexible frequencies of a configuration, rad/s, and the size of its short period with the
     /// published coefficients.
     fn column(&self, vehicle: &VehicleData, configuration: Configuration) -> Option<[f64; 4]> {
-        let data = Data { vehicle: vehicle.clone(), ..self.data.clone() };
+        let data = Data { vehicle: vehicle.clone().into(), ..self.data.clone() };
         let build = Build { configuration, ..self.build };
         let vehicle = Vehicle::chosen(&Chosen::with_set(&data, &build, &self.set)).ok()?;
         let trim = trim(&vehicle, &build.condition).ok()?;

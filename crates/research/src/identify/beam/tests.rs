@@ -81,7 +81,7 @@ fn slopes_are_those_of_finite_changes() {
 
 #[test]
 fn a_file_that_is_already_right_stays_as_it_is() {
-    let data = Data::embedded().unwrap().vehicle;
+    let data = *Data::embedded().unwrap().vehicle;
     let text = ahv::params::VEHICLE.text;
     assert_eq!(values(&rounded(data.clone())), values(&data));
     let known: Vec<_> = names().iter().map(|_| "all digits".to_string()).collect();

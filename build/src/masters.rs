@@ -1,0 +1,98 @@
+//! The FMU in masters beyond FMPy, each with packages of its own: tests/masters.
+
+use crate::package::{self, Targets};
+use crate::python::environment;
+use crate::say;
+use crate::workspace::root;
+use anyhow::{Context, Result, bail};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+const LOCK: &str = "requirements.lock";
+/// Begins the line that says how far a master is from FMPy; tests/masters/conftest.py writes it.
+const DIFFERENCE: &str = "difference: ";
+
+/// All of them, a line for each; fails after the last if one did.
+pub fn fly() -> Result<()> {
+    let mut failed = Vec::new();
+    for (name, folder) in masters()? {
+        let started = Instant::now();
+        let result = tested(&name, &folder);
+        let seconds = started.elapsed().as_secs_f64();
+        match result {
+            Ok(outcome) => note!("  {name:<10} passed {seconds:6.1} s  {outcome}"),
+            Err(error) => {
+                note!("  {name:<10} FAILED {seconds:6.1} s");
+                note!("{}", say::causes(&error));
+                failed.push(name);
+            }
+        }
+    }
+    if !failed.is_empty() {
+        bail!("these do not fly it: {}", failed.join(", "));
+    }
+    Ok(())
+}
+
+/// Folders with packages of their own, by name.
+fn masters() -> Result<Vec<(String, PathBuf)>> {
+    let home = root().join("tests/masters");
+    let mut found = Vec::new();
+    for entry in fs::read_dir(&home).with_context(|| home.display().to_string())? {
+        let entry = entry?;
+        if entry.path().join(LOCK).exists() {
+            found.push((entry.file_name().to_string_lossy().into_owned(), entry.path()));
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// What the tests of one say in a line.
+fn tested(name: &str, folder: &Path) -> Result<String> {
+    let python = environment(&format!("masters/{name}"), &folder.join(LOCK))?.python;
+    let output = Command::new(python)
+        .args(["-m", "pytest", "-p", "no:cacheprovider", "--quiet"])
+        .arg(folder)
+        .current_dir(root())
+        .env("AHV_FMU", package::default_output(Targets::Possible))
+        .output()?;
+    let said = String::from_utf8_lossy(&output.stdout);
+    if !output.status.success() {
+        bail!("{said}{}", String::from_utf8_lossy(&output.stderr));
+    }
+    Ok(outcome(&said).to_string())
+}
+
+/// The line about the difference, or else pytest's last.
+fn outcome(said: &str) -> &str {
+    let difference = said.lines().find_map(|line| line.strip_prefix(DIFFERENCE));
+    difference.or(said.lines().last()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_folder_of_tests_has_its_packages_locked() {
+        let flown: Vec<_> = masters().unwrap().into_iter().map(|(name, _)| name).collect();
+        for entry in fs::read_dir(root().join("tests/masters")).unwrap() {
+            let entry = entry.unwrap();
+            let name = entry.file_name().to_string_lossy().into_owned();
+            if entry.path().join(format!("test_{name}.py")).exists() {
+                assert!(flown.contains(&name), "{name}");
+            }
+        }
+        assert!(flown.len() > 5, "{flown:?}");
+    }
+
+    #[test]
+    fn a_master_is_told_by_its_difference_or_the_last_line() {
+        assert_eq!(outcome("..\ndifference: level 0e+00\n2 passed in 1 s\n"), "level 0e+00");
+        assert_eq!(outcome(".\n1 passed in 1 s\n"), "1 passed in 1 s");
+        assert_eq!(outcome(""), "");
+    }
+}

@@ -1,0 +1,74 @@
+//! What a demanding host grants a call: no floating-point exception, as it would trap it, and little stack.
+//!
+//! The compiler vectorises and speculates in a release build only, so `cargo ahv test` runs this in both.
+
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+#![allow(unsafe_code)]
+
+#[path = "../common/mod.rs"]
+mod common;
+mod edges;
+mod flights;
+mod host;
+mod watch;
+
+use ahv::fmi::sys::Type;
+use common::Api;
+use watch::Watch;
+
+/// Stack that a call may use, bytes.
+const STACK: usize = 64 << 10;
+/// Stack of the smallest thread that hosts an FMU, bytes: the default of musl.
+const SMALL_THREAD: usize = 128 << 10;
+
+#[test]
+fn no_call_raises_a_floating_point_exception_or_needs_more_than_64_kb_of_stack() {
+    let api = Api::load();
+    let mut watch = Watch::default();
+    for vehicle in flights::vehicles() {
+        flights::co_simulation(&api, &mut watch, vehicle);
+        flights::model_exchange(&api, &mut watch, vehicle);
+    }
+    edges::parameters(&api, &mut watch);
+    edges::arguments(&api, &mut watch);
+    let mut deepest: Vec<_> = watch.deepest.iter().collect();
+    deepest.sort_by_key(|(_, depth)| std::cmp::Reverse(**depth));
+    println!("{} calls; stack, bytes: {:?}", watch.calls, &deepest[..5]);
+    assert!(watch.raised.is_empty(), "{:#?}", watch.raised);
+    assert!(deepest.iter().all(|(_, depth)| **depth <= STACK), "{deepest:?}");
+    let unused = watch.not_called();
+    assert!(unused.is_empty(), "every function is watched: {unused:?}");
+}
+
+#[test]
+fn a_host_that_traps_floating_point_exceptions_flies() {
+    let trapping = || {
+        // A trap would end this process.
+        watch::trap();
+        flights::vehicles().for_each(|vehicle| flights::short(&Api::load(), vehicle));
+    };
+    std::thread::spawn(trapping).join().unwrap();
+}
+
+#[test]
+fn a_whole_flight_fits_into_a_thread_of_128_kb() {
+    let fly = || flights::vehicles().for_each(|vehicle| flights::short(&Api::load(), vehicle));
+    // More than is there would end this process.
+    std::thread::Builder::new().stack_size(SMALL_THREAD).spawn(fly).unwrap().join().unwrap();
+}
+
+#[test]
+fn the_watch_sees_exceptions_and_stack() {
+    let mut watch = Watch::default();
+    let zero = std::hint::black_box(0.0);
+    watch.call("division", "", || std::hint::black_box(1.0 / zero));
+    watch.call("nothing", "", || ());
+    watch.call("deep", "", || std::hint::black_box([1_u8; 100_000])[7]);
+    assert_eq!(watch.raised.len(), 1);
+    assert!(watch.raised.iter().next().unwrap().starts_with("division"));
+    assert!((100_000..110_000).contains(&watch.deepest["deep"]), "{:?}", watch.deepest);
+    assert!(watch.deepest["nothing"] < 2000, "{:?}", watch.deepest);
+}
+
+/// Both interfaces.
+const INTERFACES: [Type; 2] = [Type::CO_SIMULATION, Type::MODEL_EXCHANGE];
