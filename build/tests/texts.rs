@@ -6,6 +6,7 @@ use ahv::flight::{Flight, INPUT_ORDER};
 use ahv::variables::{Kind, Role, TABLE, Variable};
 use ahv_tool::documentation;
 use std::fs;
+use std::mem::discriminant;
 use std::path::Path;
 
 fn read(file: &str) -> String {
@@ -23,7 +24,7 @@ fn reference(name: &str) -> usize {
     found.unwrap_or_else(|| panic!("README.md names `{name}`: no such variable"))
 }
 
-/// The variables that a cell names; `a` ... `b` are all between them in the table.
+/// The variables that a cell names; `a` ... `b` are those of their kind between them in the table.
 fn named(cell: &str) -> Vec<&'static Variable> {
     let mut references: Vec<usize> = Vec::new();
     let words: Vec<_> = cell.split('`').collect();
@@ -34,7 +35,8 @@ fn named(cell: &str) -> Vec<&'static Variable> {
             Some(first) if before.contains("...") => first + 1,
             _ => last,
         };
-        references.extend(first..=last);
+        let kind = |at: &usize| discriminant(&TABLE[*at].role) == discriminant(&TABLE[last].role);
+        references.extend((first..=last).filter(kind));
     }
     references.into_iter().map(|reference| &TABLE[reference]).collect()
 }
