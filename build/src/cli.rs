@@ -25,7 +25,7 @@ pub enum Command {
     Trim(Analyse),
     Poles(Poles),
     Test(Test),
-    /// Set every table, figure and claim of the paper beside ours; write a report
+    /// Set every table, claim and computed figure of the paper beside ours; write a report
     Reproduce(Research),
     /// Find numbers that are not published from results that are; write their data file
     Identify(Research),
@@ -195,10 +195,11 @@ pub struct Poles {
 #[command(after_help = "\
 Examples:
   cargo ahv test                             while you work: three minutes, once all is compiled
-  cargo ahv test --thorough                  before you hand something on: half an hour
+  cargo ahv test --thorough                  before you hand something on: twenty minutes
   cargo ahv test --thorough --all-targets    fail if the library for Windows cannot be built or run")]
 pub struct Test {
-    /// Examples, masters beyond FMPy, sanitizer, valgrind, 100,000 random sequences and Windows too
+    /// Masters beyond FMPy, examples, 100,000 random sequences, sanitizer, valgrind, benchmarks and
+    /// Windows too
     #[arg(long)]
     pub thorough: bool,
     /// Stop at the first step that fails

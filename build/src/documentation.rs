@@ -8,10 +8,20 @@ use anyhow::{Result, anyhow};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
-const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
-table{border-collapse:collapse;font-size:14px}th,td{border:1px solid #bbb;padding:.2em .5em;\
-text-align:left;vertical-align:top}th{background:#eee}td.n{text-align:right}\
-td:last-child{min-width:18em}";
+/// On a narrow screen each variable is a paragraph: name, meaning, then what can be set.
+const STYLE: &str = "\
+body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:60em;margin:2em auto;padding:0 1em;\
+overflow-wrap:break-word}img{max-width:100%}a{padding:.3em 0;color:#0054a6}\
+.table{overflow-x:auto}table{border-collapse:collapse;font-size:14px}\
+th,td{border:1px solid #bbb;padding:.2em .5em;text-align:left;vertical-align:top}th{background:#eee}\
+td.n{text-align:right}td:last-child{min-width:18em}\
+@media(max-width:44em){thead{display:none}table,tbody{display:block}\
+tr{display:flex;flex-wrap:wrap;column-gap:.9em;padding:.6em 0;border-bottom:1px solid #bbb}\
+td,td.n{order:2;border:0;padding:0;color:#555;text-align:left}td:empty{display:none}\
+td:nth-child(2),td:last-child{order:1;flex-basis:100%;min-width:0;color:inherit}\
+td:nth-child(2){font-size:16px;font-weight:bold}\
+td:nth-child(1)::before{content:'ref. '}td:nth-child(4)::before{content:'unit '}\
+td:nth-child(5)::before{content:'start '}}";
 
 const EQUATIONS: &str = "\
 <p>The rigid body moves over a round, non-rotating earth with inverse-square gravity. States are
@@ -96,6 +106,7 @@ pub fn html(machines: &[String]) -> Result<String> {
     let (version, guid) = (env!("CARGO_PKG_VERSION"), guid());
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
          <title>ahv {version}</title><style>{STYLE}</style></head>\n<body>\n\
          <h1>ahv {version}</h1>\n\
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
@@ -110,8 +121,8 @@ pub fn html(machines: &[String]) -> Result<String> {
          <h2>Equations</h2>\n{EQUATIONS}\n\
          <h2>Validity and limits</h2>\n{limits}\n\
          <h2>Variables</h2>\n\
-         <table>\n<tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th><th>start</th>\
-         <th>range</th><th>meaning</th></tr>\n{rows}</table>\n\
+         <div class=\"table\"><table>\n<thead><tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th>\
+         <th>start</th><th>range</th><th>meaning</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
          {CITE}\n{REPORT}\n\
          <h2>Changes</h2>\n{changes}\n\
          <h2>Licences</h2>\n<p>{} In <a href=\"licenses/\">licenses</a>: the texts, and those of \

@@ -22,7 +22,7 @@ pub enum Command {
     Bench(Bench),
 }
 
-/// Set every table, figure and claim of the paper beside ours; write a report
+/// Set every table, claim and computed figure of the paper beside ours; write a report
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Output files: report.html (stands alone), report.md, report.json, figures/*.svg, figures/*.png.
@@ -110,7 +110,7 @@ Output files: bench.json, precision.svg, precision.png. What is not installed is
 libsundials-dev, the Python environment of `cargo ahv test`; PythonFMU is installed into target/bench.
 
 Examples:
-  cargo ahv bench                       ten minutes
+  cargo ahv bench                       a few minutes
   cargo ahv bench --only precision,instructions
   cargo ahv bench --quick               rough numbers, to see that everything runs")]
 pub struct Bench {

@@ -10,6 +10,8 @@ mod identify;
 mod methods;
 mod published;
 mod reproduce;
+#[cfg(test)]
+mod texts;
 
 use ahv_tool::{say, workspace};
 use anyhow::Result;

@@ -1,4 +1,4 @@
-//! `cargo ahv reproduce`: every table, figure and claim of the paper beside ours, with a verdict.
+//! `cargo ahv reproduce`: every table, claim and computed figure of the paper beside ours, with a verdict.
 
 mod advice;
 mod claims;

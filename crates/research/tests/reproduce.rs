@@ -114,6 +114,49 @@ fn every_claim_is_answered_with_numbers() {
 }
 
 #[test]
+fn the_readme_counts_the_claims_as_they_are_answered() {
+    const WORDS: [&str; 8] = ["none", "one", "two", "three", "four", "five", "six", "seven"];
+    let count = |verdict| WORDS[ANSWERS.iter().filter(|(_, answer)| *answer == verdict).count()];
+    let (lost, _) = ANSWERS.iter().find(|(_, answer)| *answer == "not_reproduced").unwrap();
+    let stated = format!(
+        "{} are reproduced, {} in sign only, {} (({lost}), ",
+        count("reproduced"),
+        count("sign_only"),
+        count("not_reproduced")
+    );
+    assert!(include_str!("../../../README.md").contains(&stated), "{stated}");
+}
+
+/// Sizes of the numbers in a text, with their decimals.
+fn sizes(text: &str) -> Vec<(f64, usize)> {
+    text.split(|letter: char| !letter.is_ascii_digit() && letter != '.')
+        .filter_map(|word| Some((word.parse().ok()?, word.split_once('.')?.1.len())))
+        .collect()
+}
+
+#[test]
+fn the_readme_has_the_numbers_of_the_report() {
+    /// Below this, rad/s, stand slow modes that the tables give in powers of ten.
+    const SLOW: f64 = 0.1;
+    let (_directory, json) = report(&["--only", "table1,table2,table3"]);
+    let readme = include_str!("../../../README.md");
+    let (_, tables) = readme.split_once("## Against the paper").unwrap();
+    let stated = sizes(tables.split_once("Where the printed digits come from").unwrap().0);
+    let tables = json["sets"][0]["tables"].as_array().unwrap().iter().chain([&json["table1"]]);
+    let mut seen = 0;
+    for cell in tables.flat_map(|table| table["cells"].as_array().unwrap()) {
+        let ours = cell["ours"].as_f64().unwrap().abs();
+        if ours > SLOW {
+            let half = |decimals: &usize| 0.5001 * 0.1f64.powi(*decimals as i32);
+            let found = stated.iter().any(|(size, digits)| (size - ours).abs() < half(digits));
+            assert!(found, "README.md does not have {cell}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "{seen}");
+}
+
+#[test]
 fn a_claim_of_a_direction_is_judged_by_signs_alone() {
     let (_directory, json) = report(&["--only", "claims"]);
     let of = |id: &str| {

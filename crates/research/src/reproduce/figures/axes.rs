@@ -6,15 +6,16 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Heights and widths at scale one.
-const HEAD: u32 = 26;
-const LEFT: u32 = 66;
-const BOTTOM: u32 = 44;
+const HEAD: u32 = 34;
+pub const LEFT: u32 = 84;
+const BOTTOM: u32 = 58;
 const RIGHT: u32 = 16;
-pub const TEXT: u32 = 15;
+/// Of all text; the page shows a figure at three quarters of its size at least.
+pub const TEXT: u32 = 20;
 const LABELS: usize = 6;
-/// Labels on an axis that is narrower than this at scale one.
-const NARROW: u32 = 200;
-const FEW_LABELS: usize = 3;
+/// Labels on an axis that is shorter than this at scale one.
+const SHORT: u32 = 200;
+const FEW_LABELS: usize = 4;
 
 /// Title, names and ranges.
 pub struct Axes<'a> {
@@ -82,8 +83,12 @@ impl Axes<'_> {
         let middle = (HEAD * scale / 2) as i32 + 2 * scale as i32;
         head.draw_text(self.title, &left, ((LEFT * scale) as i32, middle))?;
         let [[x0, x1], [y0, y1]] = [self.x, self.y];
-        let narrow = body.dim_in_pixel().0 < (NARROW + LEFT + RIGHT) * scale;
-        let x_labels = if narrow { FEW_LABELS } else { LABELS };
+        let (width, height) = body.dim_in_pixel();
+        let labels = |pixels: u32, used: u32| match pixels < (SHORT + used) * scale {
+            true => FEW_LABELS,
+            false => LABELS,
+        };
+        let (x_labels, y_labels) = (labels(width, LEFT + RIGHT), labels(height, BOTTOM));
         let mut chart = ChartBuilder::on(&body);
         chart
             .margin_right(RIGHT * scale)
@@ -92,12 +97,12 @@ impl Axes<'_> {
         let (area, x, y) = match kind {
             Scale::Linear => {
                 let mut chart = chart.build_cartesian_2d(x0..x1, y0..y1)?;
-                let [x, y] = [(x0..x1, x_labels), (y0..y1, LABELS)]
+                let [x, y] = [(x0..x1, x_labels), (y0..y1, y_labels)]
                     .map(|(range, labels)| decimals(range, labels));
                 let words = |decimals: usize| {
                     move |value: &f64| label(*value, decimals).replace('-', "\u{2212}")
                 };
-                self.mesh(&mut chart, scale, &words(x), &words(y), [x_labels, LABELS])?;
+                self.mesh(&mut chart, scale, &words(x), &words(y), [x_labels, y_labels])?;
                 (chart.plotting_area().strip_coord_spec(), self.x, self.y)
             }
             Scale::Logarithmic => {
@@ -129,7 +134,6 @@ impl Axes<'_> {
         X: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
-        let small = (FONT, (TEXT - 1) * scale).into_font().color(&BLACK);
         chart
             .configure_mesh()
             .x_labels(x_labels)
@@ -138,8 +142,8 @@ impl Axes<'_> {
             .bold_line_style(GRID.stroke_width(scale))
             .axis_style(FRAME.stroke_width(scale))
             .set_all_tick_mark_size(4 * scale)
-            .label_style(small.clone())
-            .axis_desc_style(small)
+            .label_style(text(scale))
+            .axis_desc_style(text(scale))
             .x_label_formatter(&x_words)
             .y_label_formatter(&y_words)
             .x_desc(self.names[0])
@@ -182,7 +186,7 @@ impl<B: DrawingBackend> Plot<B> {
     }
 
     pub fn write(&self, words: &str, at: (i32, i32), anchor: HPos) -> Drawn<B> {
-        let style = (FONT, (TEXT - 2) * self.scale).into_font().color(&BLACK);
-        self.area.draw_text(words, &style.pos(Pos::new(anchor, VPos::Center)), at)
+        let style = text(self.scale).pos(Pos::new(anchor, VPos::Center));
+        self.area.draw_text(words, &style, at)
     }
 }

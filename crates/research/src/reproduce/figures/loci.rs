@@ -1,6 +1,6 @@
 //! Figs 6 to 8: how poles and zeros move.
 
-use super::axes::{Axes, Plot, TEXT, range, text};
+use super::axes::{Axes, LEFT, Plot, TEXT, range, text};
 use super::marker::{self, Look};
 use crate::reproduce::roots::Name;
 use crate::reproduce::sweep::{Branch, Parameter, Sweep};
@@ -8,10 +8,10 @@ use ahv_tool::figure::{Area, Drawing, Drawn};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-pub const SIZE: (u32, u32) = (1000, 1270);
-const LEGEND: i32 = 62;
-const REAL_ROW: i32 = 200;
-const COMPLEX_ROW: i32 = 400;
+pub const SIZE: (u32, u32) = (1000, 1410);
+const LEGEND: i32 = 74;
+const REAL_ROW: i32 = 230;
+const COMPLEX_ROW: i32 = 430;
 /// Sloshing frequencies above this part of the lowest one at the start are enlarged.
 const STILL_HIGH: f64 = 0.9;
 
@@ -168,7 +168,7 @@ where
     let corner = plot
         .area
         .clone()
-        .shrink((width * INSET / 100, height * 3 / 100), (width * 56 / 100, height * 62 / 100));
+        .shrink((width * INSET / 100, height * 3 / 100), (width * 56 / 100, height * 68 / 100));
     corner.fill(&WHITE)?;
     let axes = Axes {
         title: "slosh, enlarged",
@@ -225,7 +225,7 @@ fn draw_path<B: DrawingBackend>(
 fn legend<B: DrawingBackend>(area: &Area<B>, sweep: &Sweep, scale: u32) -> Drawn<B> {
     let style = text(scale).pos(Pos::new(HPos::Left, VPos::Center));
     let unit = scale as i32;
-    let mut x = 66 * unit;
+    let mut x = LEFT as i32 * unit;
     let named = sweep.poles.iter().map(|branch| branch.name);
     let mut names: Vec<Name> =
         named.filter(|name| matches!(name, Name::Flexible(_) | Name::Slosh(_))).collect();
@@ -244,5 +244,5 @@ fn legend<B: DrawingBackend>(area: &Area<B>, sweep: &Sweep, scale: u32) -> Drawn
         x += area.estimate_text_size(&words, &style)?.0 as i32 + 26 * unit;
     }
     let line = (16 + TEXT as i32 * 3 / 2 + 2) * unit;
-    area.draw_text(&sweep.parameter.way(), &style, (60 * unit, line))
+    area.draw_text(&sweep.parameter.way(), &style, ((LEFT as i32 - 6) * unit, line))
 }

@@ -9,8 +9,8 @@ use ahv_tool::figure::{Area, COLOURS, Drawing, Drawn, FRAME};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-pub const STIFFNESS_SIZE: (u32, u32) = (1000, 430);
-pub const SHAPES_SIZE: (u32, u32) = (1000, 1000);
+pub const STIFFNESS_SIZE: (u32, u32) = (1000, 470);
+pub const SHAPES_SIZE: (u32, u32) = (1000, 1090);
 
 /// Fig. 3.
 pub struct Stiffness<'a> {
@@ -64,7 +64,8 @@ fn tanks<B: DrawingBackend>(plot: &Plot<B>, data: &VehicleData) -> Drawn<B> {
         let [left, right] = [-half, half].map(|d| plot.place((tank.centre_m.value + d, 0.0)).0);
         let corners = [(left, 1), (right, height - 1)];
         plot.area.draw(&Rectangle::new(corners, FRAME.mix(0.12).filled()))?;
-        let at = ((left + right) / 2, height - 10 * plot.scale as i32);
+        // Curves are low there.
+        let at = ((left + right) / 2, 14 * plot.scale as i32);
         plot.write(&format!("{} tank", tank.name), at, HPos::Center)?;
     }
     Ok(())
@@ -141,14 +142,14 @@ impl Shapes<'_> {
         let y = 16 * unit;
         let line = |x: i32| vec![(x * unit, y), ((x + 36) * unit, y)];
         let blue = COLOURS[0].stroke_width(2 * scale);
-        area.draw(&PathElement::new(line(66), blue))?;
-        area.draw_text("even mass", &style, (108 * unit, y))?;
-        let points = line(216).into_iter();
+        area.draw(&PathElement::new(line(84), blue))?;
+        area.draw_text("even mass", &style, (126 * unit, y))?;
+        let points = line(258).into_iter();
         let red = COLOURS[1].stroke_width(2 * scale);
         let dashes = plotters::element::DashedPathElement::new(points, 9 * scale, 4 * scale, red);
         area.draw(&dashes)?;
-        area.draw_text("sloshing mass, beam", &style, (258 * unit, y))?;
-        marker::draw(area, look(1), (440 * unit, y), true, scale)?;
-        area.draw_text("sloshing mass itself; nose = 1", &style, (454 * unit, y))
+        area.draw_text("sloshing mass, beam", &style, (300 * unit, y))?;
+        marker::draw(area, look(1), (538 * unit, y), true, scale)?;
+        area.draw_text("sloshing mass itself; nose = 1", &style, (552 * unit, y))
     }
 }

@@ -7,7 +7,7 @@ use ahv_tool::figure::{Area, COLOURS, Drawing, Drawn, FRAME};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
-pub const SIZE: (u32, u32) = (1000, 470);
+pub const SIZE: (u32, u32) = (1000, 510);
 /// Weights of this many decades are written beside their place.
 const WRITTEN: f64 = 2.0;
 
@@ -34,8 +34,8 @@ impl Drawing for Figure<'_> {
         let axes = Axes {
             title: "Misfit to Tables 2 and 3 against distance from the published numbers",
             names: ["distance from parker2007: sum of (ln ratio / doubt)²", "misfit"],
-            x: decades(places.iter().map(|place| place.distance), [0.3, 0.6]),
-            y: decades(places.iter().map(|place| place.misfit), [0.12, 0.12]),
+            x: decades(places.iter().map(|place| place.distance), [0.3, 0.8]),
+            y: decades(places.iter().map(|place| place.misfit), [0.12, 0.2]),
         };
         let plot = axes.draw_scaled(&inner, scale, Scale::Logarithmic)?;
         let at = |distance: f64, misfit: f64| plot.place((distance.log10(), misfit.log10()));

@@ -1,6 +1,6 @@
 //! How slosh and flexible modes give way to each other.
 
-use super::axes::{Axes, range, text};
+use super::axes::{Axes, LEFT, range, text};
 use super::marker::{self, look};
 use crate::reproduce::veering::Veering;
 use ahv::modes::MODES;
@@ -8,7 +8,7 @@ use ahv_tool::figure::{Area, Drawing, Drawn, FRAME};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-pub const SIZE: (u32, u32) = (1000, 1090);
+pub const SIZE: (u32, u32) = (1000, 1160);
 /// Modes, by frequency, that meet the sloshing frequency on its way.
 const LOW: usize = 3;
 
@@ -23,10 +23,10 @@ impl Drawing for Figure<'_> {
         let inner = area.margin(4 * scale, 4 * scale, 4 * scale, 4 * scale);
         let (head, body) = inner.split_vertically(36 * scale);
         legend(&head, scale)?;
-        let x_name = "frequency of the liquid in a tank at rest, rad/s";
+        let x_name = "frequency of the liquid alone, rad/s";
         for (column, half) in body.split_evenly((1, self.0.len())).iter().enumerate() {
             let veering = &self.0[column];
-            let rows = half.split_by_breakpoints([0; 0], [430, 620].map(|y| y * scale as i32));
+            let rows = half.split_by_breakpoints([0; 0], [440, 670].map(|y| y * scale as i32));
             let steps = &veering.steps;
             let x = [0.0, *steps.last().unwrap_or(&1.0)];
             let label = |letter: usize, words: &str| {
@@ -78,14 +78,14 @@ impl Drawing for Figure<'_> {
 fn legend<B: DrawingBackend>(area: &Area<B>, scale: u32) -> Drawn<B> {
     let style = text(scale).pos(Pos::new(HPos::Left, VPos::Center));
     let unit = scale as i32;
-    let mut x = 66 * unit;
+    let mut x = LEFT as i32 * unit;
     area.draw_text("modes by frequency:", &style, (x, 16 * unit))?;
-    x += 180 * unit;
+    x += 220 * unit;
     for i in 0..MODES {
         marker::draw(area, look(i), (x, 16 * unit), true, scale)?;
         let words = ["1st", "2nd", "3rd", "4th", "5th"][i];
         area.draw_text(words, &style, (x + 12 * unit, 16 * unit))?;
-        x += 70 * unit;
+        x += 80 * unit;
     }
     area.draw_text("dotted: liquid alone", &style, (x, 16 * unit))
 }
