@@ -5,6 +5,7 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 use tempfile::TempDir;
 
 fn reproduce(directory: &Path, arguments: &[&str]) -> Output {
@@ -23,6 +24,12 @@ fn report(arguments: &[&str]) -> (TempDir, Value) {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = fs::read_to_string(directory.path().join("report.json")).unwrap();
     (directory, serde_json::from_str(&text).unwrap())
+}
+
+/// The claims alone, drawn up once for all tests.
+fn claims() -> &'static (TempDir, Value) {
+    static CLAIMS: LazyLock<(TempDir, Value)> = LazyLock::new(|| report(&["--only", "claims"]));
+    &CLAIMS
 }
 
 /// How many numbers the data file holds below a key.
@@ -93,7 +100,7 @@ const ANSWERS: [(&str, &str); 10] = [
 
 #[test]
 fn every_claim_is_answered_with_numbers() {
-    let (directory, json) = report(&["--only", "claims"]);
+    let (directory, json) = claims();
     let claims = json["sets"][0]["claims"].as_array().unwrap();
     let answers: Vec<_> = claims
         .iter()
@@ -158,7 +165,7 @@ fn the_readme_has_the_numbers_of_the_report() {
 
 #[test]
 fn a_claim_of_a_direction_is_judged_by_signs_alone() {
-    let (_directory, json) = report(&["--only", "claims"]);
+    let (_, json) = claims();
     let of = |id: &str| {
         let claims = json["sets"][0]["claims"].as_array().unwrap();
         claims.iter().find(|claim| claim["id"] == id).unwrap().clone()
@@ -176,7 +183,7 @@ fn a_claim_of_a_direction_is_judged_by_signs_alone() {
 
 #[test]
 fn claim_b_is_shown_under_both_laws_of_inertia() {
-    let (_directory, json) = report(&["--only", "claims"]);
+    let (_, json) = claims();
     let laws = &json["sets"][0]["laws"];
     let change = |i: usize| {
         let poles = laws["laws"][i]["poles"].as_array().unwrap();
@@ -220,7 +227,7 @@ const BEYOND_DOUBT: f64 = 0.75;
 
 #[test]
 fn branches_are_whole_and_beyond_doubt() {
-    let (_directory, json) = report(&["--only", "claims"]);
+    let (_, json) = claims();
     let sweeps = json["sets"][0]["sweeps"].as_array().unwrap();
     assert_eq!(sweeps.len(), 3);
     for sweep in sweeps {
