@@ -5,6 +5,10 @@ use anyhow::{Result, bail};
 /// The text without its mark; `file` is its name in messages.
 pub fn decode(bytes: &[u8], file: &str) -> Result<String> {
     match bytes {
+        // UTF-32 begins as UTF-16 does.
+        [0xff, 0xfe, 0, 0, ..] => {
+            bail!("{file}: the text is in UTF-32; save the file as CSV in UTF-8")
+        }
         [0xff, 0xfe, rest @ ..] => utf16(rest, u16::from_le_bytes, file),
         [0xfe, 0xff, rest @ ..] => utf16(rest, u16::from_be_bytes, file),
         [0xef, 0xbb, 0xbf, rest @ ..] => utf8(rest, file),
@@ -33,7 +37,7 @@ fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16, file: &str) -> Result<String> {
     let (pairs, rest) = bytes.as_chunks::<2>();
     let text: Result<String, _> = char::decode_utf16(pairs.iter().copied().map(unit)).collect();
     match text {
-        Ok(text) if rest.is_empty() => Ok(text),
+        Ok(text) if rest.is_empty() && !text.contains('\0') => Ok(text),
         _ => bail!("{file}: the text begins as UTF-16 and is damaged; save the file again"),
     }
 }
@@ -59,6 +63,8 @@ mod tests {
             (b"time\n0\n\xb0".as_slice(), "a.csv, line 3: the text is not in UTF-8"),
             (b"time\n\0".as_slice(), "a.csv, line 2: a zero byte"),
             (b"\xff\xfet".as_slice(), "a.csv: the text begins as UTF-16 and is damaged"),
+            (b"\xff\xfet\0\0\0".as_slice(), "a.csv: the text begins as UTF-16 and is damaged"),
+            (b"\xff\xfe\0\0t\0\0\0".as_slice(), "a.csv: the text is in UTF-32"),
         ] {
             let message = decode(bytes, "a.csv").unwrap_err().to_string();
             assert!(message.starts_with(expected), "{message}");
