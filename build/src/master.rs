@@ -5,6 +5,7 @@
 
 use crate::fmu::Fmu;
 use crate::model_description::{Kind, Variable};
+use ahv::short::short;
 use anyhow::{Context, Result, anyhow, bail};
 use libloading::Library;
 use std::ffi::{CStr, CString, c_char, c_int, c_uint, c_void};
@@ -129,7 +130,7 @@ impl Instance {
             }),
             Kind::String => bail!("{} is text and cannot be set", variable.name),
         };
-        self.check(call, status).with_context(|| format!("{} = {value}", variable.name))
+        self.check(call, status).with_context(|| format!("{} = {}", variable.name, short(value)))
     }
 
     /// How inputs go on within the next step: their first derivatives.

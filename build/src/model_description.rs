@@ -213,6 +213,15 @@ impl Variable {
         }
     }
 
+    /// Least and largest value of a real variable.
+    pub fn range(&self) -> [f64; 2] {
+        let (min, max) = match &self.kind {
+            Kind::Real(real) => (real.min, real.max),
+            _ => (None, None),
+        };
+        [min.unwrap_or(f64::MIN), max.unwrap_or(f64::MAX)]
+    }
+
     /// Unit of a real variable; "1" if it has none.
     pub fn unit(&self) -> &str {
         match &self.kind {

@@ -2,7 +2,7 @@
 
 use super::columns::{Column, Role, columns, example};
 use super::{Manoeuvre, Row};
-use crate::model_description::ModelDescription;
+use crate::model_description::{ModelDescription, Variable};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
 
@@ -40,24 +40,25 @@ pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<
     let (header, at) = first?;
     let columns = columns(header.iter(), &at, model)?;
 
+    let inputs = columns.iter().filter_map(|column| match column.role {
+        Role::Input { variable, .. } => Some(variable),
+        _ => None,
+    });
+    let inputs: Vec<_> = inputs.collect();
     let mut rows: Vec<Row> = Vec::new();
     let mut mark = None;
     for record in records {
         let (record, at) = record?;
         let row = row(&record, &at, &columns, &mut mark)?;
-        follows(&row, &rows, &at)?;
+        follows(&row, &rows, &inputs, &at)?;
         rows.push(row);
     }
-    let inputs = columns.iter().filter_map(|column| match column.role {
-        Role::Input { variable, .. } => Some(variable),
-        _ => None,
-    });
     let ignored = columns.iter().filter(|column| matches!(column.role, Role::Ignored));
     let name = |column: &Column| match column.name.as_str() {
         "" => "one without a name".to_string(),
         name => name.to_string(),
     };
-    Ok(Manoeuvre { inputs: inputs.collect(), rows, ignored: ignored.map(name).collect() })
+    Ok(Manoeuvre { inputs, rows, ignored: ignored.map(name).collect() })
 }
 
 /// What separates the columns of a header: the most frequent of the three, outside of quotes.
@@ -74,8 +75,9 @@ fn delimiter(header: &str) -> u8 {
     [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
 }
 
-/// Times do not decrease, and no instant has more than a value before and one after it.
-fn follows(row: &Row, rows: &[Row], at: &str) -> Result<()> {
+/// Times do not decrease, no instant has more than a value before and one after it, and what lies
+/// between two rows is a number.
+fn follows(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Result<()> {
     let time = row.time;
     match rows {
         [.., last] if time < last.time => bail!(
@@ -87,6 +89,22 @@ fn follows(row: &Row, rows: &[Row], at: &str) -> Result<()> {
             "{at}, column time: a third row for {} s; a jump has two, the values before and after it",
             short(time)
         ),
+        [.., last] if time > last.time => {
+            let span = time - last.time;
+            let mut changes = inputs.iter().zip(last.values.iter().zip(&row.values));
+            // An infinite span would hide a change.
+            let lost =
+                changes.find(|(_, (a, b))| !span.is_finite() || !((*b - *a) / span).is_finite());
+            match lost {
+                None => Ok(()),
+                Some((input, _)) => bail!(
+                    "{at}, column {}: the change since the row for {} s cannot be computed, values or \
+                     times lie too far apart, or times too close; a jump is two rows with the same time",
+                    input.name,
+                    short(last.time)
+                ),
+            }
+        }
         _ => Ok(()),
     }
 }
@@ -121,11 +139,25 @@ fn row(
         };
         match column.role {
             Role::Time => time = number(mark)?,
-            Role::Input { factor, offset, .. } => values.push((number(mark)? - offset) / factor),
+            Role::Input { variable, factor, offset } => {
+                let value = (number(mark)? - offset) / factor;
+                within(value, variable).with_context(|| format!("{at}, column {}", column.name))?;
+                values.push(value);
+            }
             Role::Ignored => {}
         }
     }
     Ok(Row { time, values })
+}
+
+/// The FMU would end the flight there.
+fn within(value: f64, variable: &Variable) -> Result<()> {
+    let [min, max] = variable.range();
+    if !(min..=max).contains(&value) {
+        let [value, min, max] = [value, min, max].map(short);
+        bail!("{value} {} is beyond the range of the FMU, [{min}, {max}]", variable.unit());
+    }
+    Ok(())
 }
 
 fn number(field: &str, mark: &mut Option<char>) -> Result<f64> {
@@ -212,6 +244,11 @@ mod tests {
             ("time;phi\n0;1.000,5\n", "line 2, column phi: `1.000,5` is not a finite number"),
             ("time,phi\n0,\"1\n2,3\n", "line 2: a quotation mark opens and is not closed"),
             ("time,phi\n1,0\n#\n0.5,0\n", "line 4, column time: 0.5 s follows 1 s"),
+            ("time,w_gust\n0,0\n1,201\n", "line 3, column w_gust: 201 m/s is beyond the range"),
+            ("time,w_gust\n0,-1e200\n", "-1e200 m/s is beyond the range of the FMU, [-200, 200]"),
+            ("time,delta_e,phi\n0,0,0\n1,0,1e308\n2,0,-1e308\n", "line 4, column phi: the change"),
+            ("time,phi\n0,0\n5e-324,1\n", "the change since the row for 0 s cannot be"),
+            ("time,phi\n-1e308,0\n1e308,0\n", "line 3, column phi: the change since the row for"),
             ("time,phi\n1,0\n1,1\n1,2\n", "line 4, column time: a third row for 1 s"),
         ] {
             let error = parse(text, "a.csv", &model).unwrap_err();
