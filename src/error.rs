@@ -86,8 +86,8 @@ pub enum Error {
     /// The flight reached the edge of the region in which the curve fits hold.
     #[error(
         "{variable} = {value:.6} reached the edge of its valid range [{min:.6}, {max:.6}] at \
-         t = {time_s} s; {}, so the flight ends there",
-        beyond(variable)
+         t = {} s; {}, so the flight ends there",
+        short(*time_s), beyond(variable)
     )]
     Envelope {
         /// Name of the variable at the edge of its range.
@@ -119,15 +119,19 @@ pub enum Error {
     },
     /// The tanks ran empty.
     #[error(
-        "fuel_mass reached 0 at t = {time_s} s: the fuel ran out, and the thrust of the curve fits \
-         is one with fuel, so the flight ends there; start with a larger fuel_fraction"
+        "fuel_mass reached 0 at t = {} s: the fuel ran out, and the thrust of the curve fits \
+         is one with fuel, so the flight ends there; start with a larger fuel_fraction",
+        short(*time_s)
     )]
     Fuel {
         /// The last instant with fuel, s.
         time_s: f64,
     },
     /// The integrator cannot hold the tolerance.
-    #[error("no step holds the tolerance {tolerance:.1e} at t = {time_s} s; raise the tolerance")]
+    #[error(
+        "no step holds the tolerance {tolerance:.1e} at t = {} s; raise the tolerance",
+        short(*time_s)
+    )]
     StepSize {
         /// Relative tolerance asked for.
         tolerance: f64,
@@ -136,8 +140,9 @@ pub enum Error {
     },
     /// The interval takes more steps than anyone waits for.
     #[error(
-        "a step of {asked_s:e} s is too long: {trials} steps of the integrator reach t = {time_s} s; \
-         go on from there with shorter communication steps"
+        "a step of {asked_s:e} s is too long: {trials} steps of the integrator reach t = {} s; \
+         go on from there with shorter communication steps",
+        short(*time_s)
     )]
     TooLong {
         /// Length of the interval, s.

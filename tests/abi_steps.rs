@@ -21,7 +21,8 @@ fn senseless_steps_are_refused_and_change_nothing() {
         (infinity, 0.01, "currentCommunicationPoint = inf"),
         (0.0, 0.01, "currentCommunicationPoint = 0"),
         (0.02, 0.01, "currentCommunicationPoint = 0.02"),
-        (f64::MAX, 0.01, "currentCommunicationPoint = 1797"),
+        (f64::MAX, 0.01, "currentCommunicationPoint = 1.7976931348623157e308 s"),
+        (0.02, 5e-324, "communicationStepSize = 5e-324 s do not continue"),
         (0.01, f64::MAX, "a positive number up to 1e30"),
     ];
     for (point, step, reason) in refused {

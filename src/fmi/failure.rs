@@ -125,8 +125,9 @@ pub enum Failure {
     },
     /// The communication point is not where the last step ended.
     #[error(
-        "currentCommunicationPoint = {asked} s and communicationStepSize = {step} s do not \
-         continue from the instance's time {time} s; a step begins where the last one ended"
+        "currentCommunicationPoint = {} s and communicationStepSize = {} s do not continue from the \
+         instance's time {} s; a step begins where the last one ended",
+        short(*asked), short(*step), short(*time)
     )]
     CommunicationPoint {
         /// Communication point given.
@@ -137,7 +138,10 @@ pub enum Failure {
         time: f64,
     },
     /// A step past the stop time.
-    #[error("the step ends at {end} s, past the stop time {stop} s of fmi2SetupExperiment")]
+    #[error(
+        "the step ends at {} s, past the stop time {} s of fmi2SetupExperiment",
+        short(*end), short(*stop)
+    )]
     PastStop {
         /// End of the step.
         end: f64,

@@ -8,6 +8,7 @@ use crate::fmi::lifecycle::Phase;
 use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
+use crate::short::short;
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this
@@ -129,6 +130,7 @@ impl Instance {
         self.flight.set_experiment(start, tolerance);
         self.life.stop = Some(stop);
         self.log.push(Status::Ok, || {
+            let start = short(start);
             format!("fmi2SetupExperiment: start at {start} s, relative tolerance {tolerance:e}")
         });
         Ok(())
