@@ -37,9 +37,12 @@ def claim(folder: Path, what: dict[str, object], law: Law) -> tuple[Law, bytes]:
     """
     kept, kept_law = folder / "ensemble.json", folder / "law.json"
     if kept.exists():
-        before = json.loads(kept.read_text(encoding="utf-8"))
+        try:
+            before = json.loads(kept.read_text(encoding="utf-8"))
+            known = Law.load(kept_law) if kept_law.exists() else None
+        except ValueError as failure:
+            raise AnotherEnsemble(f"{folder} holds a damaged ensemble: {failure}") from failure
         differ = [name for name in what if before.get(name) != what[name]]
-        known = Law.load(kept_law) if kept_law.exists() else None
         if known is None or not alike(known, law):
             differ.append("law")
         if differ:
@@ -51,7 +54,10 @@ def claim(folder: Path, what: dict[str, object], law: Law) -> tuple[Law, bytes]:
         folder.mkdir(parents=True, exist_ok=True)
         law.save(kept_law)
         law = Law.load(kept_law)
-        kept.write_text(json.dumps(what, indent=1), encoding="utf-8")
+        # Cut off, it would be nobody's ensemble.
+        new = kept.with_suffix(".new")
+        new.write_text(json.dumps(what, indent=1), encoding="utf-8")
+        new.replace(kept)
     identity = hashlib.sha256(kept.read_bytes() + kept_law.read_bytes())
     return law, identity.hexdigest().encode()
 

@@ -144,7 +144,8 @@ def test_two_ensembles_are_not_mixed(package: Package, flown: Path, tmp_path: Pa
 
 
 def test_the_law_belongs_to_the_ensemble(package: Package, tmp_path: Path) -> None:
-    """One that differs by rounding goes on as the law that is there; another one is refused."""
+    """One that differs by rounding goes on as the law that is there; another one, or half
+    of one, is refused."""
     law = design.design(design.model(str(package.folder)))
     first, identity = claim(tmp_path, {"seed": 1}, law)
     rounded = Law(**vars(law) | {"K": law.K * (1.0 + 1e-12)})
@@ -152,6 +153,14 @@ def test_the_law_belongs_to_the_ensemble(package: Package, tmp_path: Path) -> No
     assert same == identity and np.array_equal(again.K, first.K)
     with pytest.raises(AnotherEnsemble, match="differing: law"):
         claim(tmp_path, {"seed": 1}, Law(**vars(law) | {"K": law.K * 1.01}))
+    for name in ("ensemble.json", "law.json"):
+        file = tmp_path / name
+        whole = file.read_bytes()
+        file.write_bytes(whole[: len(whole) // 2])
+        with pytest.raises(AnotherEnsemble, match="damaged"):
+            claim(tmp_path, {"seed": 1}, law)
+        file.write_bytes(whole)
+    assert claim(tmp_path, {"seed": 1}, law)[1] == identity
 
 
 def test_a_part_of_another_ensemble_is_not_read(tmp_path: Path) -> None:
