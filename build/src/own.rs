@@ -53,7 +53,7 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
     }
     let mut command = cargo();
     command
-        .args(["run", "--release", "--package", "ahv", "--manifest-path"])
+        .args(["run", "--profile", "tool", "--package", "ahv", "--manifest-path"])
         .arg(root().join("Cargo.toml"))
         .arg("--")
         .args(env::args_os().skip(1))

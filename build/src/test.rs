@@ -54,7 +54,8 @@ const STEPS: [Step; 17] = [
     ("valgrind", Thorough, |_| abuse::valgrind()),
     ("bench runs", Thorough, |_| bench()),
     (WINDOWS, Thorough, |options| match missing_for_windows() {
-        None => pytest(&["tests/wine"]),
+        // Programs in one wine start one server: one after the other.
+        None => pytest(&["tests/wine", "--numprocesses", "0"]),
         Some(missing) if options.all_targets => bail!("{missing}"),
         Some(missing) => {
             note!("left out: {missing}");

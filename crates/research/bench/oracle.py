@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import solve_ivp
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tests" / "oracle"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tests" / "oracle"))
 from oracle import Vehicle
 
 DOUBLET = (0.0, 0.01, -0.01, 0.0)
