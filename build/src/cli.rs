@@ -170,7 +170,7 @@ Examples:
 pub struct Modes {
     #[command(flatten)]
     pub analyse: Analyse,
-    /// Print JSON with the beam's elements and the time of the solution
+    /// Print JSON with the beam's elements
     #[arg(long)]
     pub elements: bool,
 }

@@ -3,27 +3,15 @@
 use crate::cli;
 use crate::table::{number, row, table};
 use crate::trim::{configuration, flight, model, ready};
-use ahv::modes::{FLEXIBLE, MODES, Modes};
+use ahv::modes::{FLEXIBLE, Modes};
 use ahv::vehicle::{Build, Data, structure};
 use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;
-use std::time::Instant;
 
-/// Solutions whose median time is quoted.
-const REPEATS: usize = 200;
-
-/// The eigenproblem, its frequencies and the time that they took.
+/// The eigenproblem and its frequencies.
 pub fn solved_elements(build: &Build) -> Result<serde_json::Value> {
     let (beam, oscillators) = structure(&Data::embedded()?, build)?;
-    let mut seconds = Vec::with_capacity(REPEATS);
-    let mut omega = [0.0; MODES];
-    for _ in 0..REPEATS {
-        let started = Instant::now();
-        omega = Modes::solve(&beam, &oscillators)?.omega_rad_per_s;
-        seconds.push(started.elapsed().as_secs_f64());
-    }
-    seconds.sort_by(f64::total_cmp);
     let masses: Vec<_> = oscillators
         .iter()
         .map(|o| json!({ "node": o.node, "mass": o.mass, "stiffness": o.stiffness }))
@@ -33,8 +21,7 @@ pub fn solved_elements(build: &Build) -> Result<serde_json::Value> {
         "stiffness": beam.stiffness,
         "density": beam.density,
         "oscillators": masses,
-        "omega_rad_per_s": omega,
-        "median_s": seconds[REPEATS / 2],
+        "omega_rad_per_s": Modes::solve(&beam, &oscillators)?.omega_rad_per_s,
     }))
 }
 
