@@ -185,18 +185,14 @@ impl Flight {
         in_effect(&ready.vehicle, &ready.base, &self.inputs.values)
     }
 
-    /// The first control that asks for more than its actuator can do: its index, what it asks for, and
-    /// the limits.
-    pub fn beyond_limits(&self) -> Option<(usize, f64, [f64; 2])> {
+    /// What a control asks for, and its limits, if its actuator cannot do it.
+    pub fn beyond_limits(&self, control: usize) -> Option<(f64, [f64; 2])> {
         let ready = self.ready.as_ref()?;
-        let ranges = ready.vehicle.ranges().into_iter().enumerate();
-        ranges.map(|(i, range)| (i, ready.base[i] + self.inputs.values[i], range)).find(
-            |(_, asked, [min, max])| {
-                // A master that aims at the limit itself may miss it by rounding.
-                let slack = 1e-9 * (max - min);
-                *asked < min - slack || *asked > max + slack
-            },
-        )
+        let range @ [min, max] = ready.vehicle.ranges()[control];
+        let asked = ready.base[control] + self.inputs.values[control];
+        // A master that aims at the limit itself may miss it by rounding.
+        let slack = 1e-9 * (max - min);
+        (asked < min - slack || asked > max + slack).then_some((asked, range))
     }
 
     /// Outputs and derivatives at the current instant, computed once per state and input.

@@ -102,7 +102,10 @@ fn an_input_beyond_its_limit_is_said_once_and_changes_no_status() {
         let expected = "fmi2SetReal: delta_e asks for 5.18";
         assert!(text.starts_with(expected) && text.contains("gets 0.349"), "{text}");
         assert!(text.ends_with("inputs are in rad, not in degrees"), "{text}");
+        // Each control for itself.
         assert_eq!(slave.set("phi", 9.0), Status::Ok);
+        let [text] = &said(&slave)[..] else { panic!("one message") };
+        assert!(text.starts_with("fmi2SetReal: phi asks for 9."), "{text}");
         assert_eq!(slave.step(0.0, 0.001), Status::Ok);
         assert!(said(&slave).is_empty(), "once");
         assert_eq!(slave.reset(), Status::Ok);

@@ -21,7 +21,9 @@ pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
+use std::env;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use tempfile::TempDir;
 
 /// For which platforms an FMU is built.
@@ -68,6 +70,7 @@ pub fn run(options: &Package) -> Result<()> {
     for library in given {
         libraries.add(library?)?;
     }
+    survives(&contents(&libraries.found)?)?;
     package(libraries, &output)
 }
 
@@ -224,6 +227,21 @@ fn reference(files: &Files) -> Result<Files> {
     let mut found = cross_check::fly_reference(&fmu)?;
     found.extend(related::files(&fmu.model)?);
     Ok(found)
+}
+
+/// A library from elsewhere may end the process that flies it, so another process tries it first. What
+/// goes wrong in any other way the reference flight tells.
+fn survives(files: &Files) -> Result<()> {
+    let directory = TempDir::with_prefix("fmu-")?;
+    let file = directory.path().join("ahv.fmu");
+    write(&file, archive::zip(files)?)?;
+    let mut fly = Command::new(env::current_exe()?);
+    fly.args(["fly", "--stop", "0.1", "--fmu"]).arg(&file).arg("--output").arg(directory.path());
+    let status = fly.output()?.status;
+    if status.code().is_none() {
+        bail!("the library for this machine ends the process that flies it: {status}");
+    }
+    Ok(())
 }
 
 /// Writes the FMU and says what it is.

@@ -61,6 +61,28 @@ fn rubbish_replaces_no_fmu() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_library_that_ends_its_process_does_not_end_the_tool() {
+    use object::{Object, ObjectSection};
+    let (directory, _, fmu) = scratch();
+    fs::write(&fmu, "good").unwrap();
+    let mut content = fs::read(library()).unwrap();
+    let parsed = object::File::parse(&content[..]).unwrap();
+    let (start, size) = parsed.section_by_name(".text").unwrap().file_range().unwrap();
+    content[start as usize..(start + size) as usize].fill(0);
+    let broken = directory.path().join("broken.so");
+    fs::write(&broken, content).unwrap();
+    let option = format!("linux64={}", broken.display());
+    let done = ahv(&["package", "--library", &option, "--output", fmu.to_str().unwrap()]);
+    assert!(
+        !done.ok && done.err.contains("ends the process that flies it: signal"),
+        "{}",
+        done.err
+    );
+    assert_eq!(fs::read(&fmu).unwrap(), b"good");
+}
+
+#[test]
 fn a_flight_that_cannot_be_written_leaves_the_older_one() {
     let (directory, option, fmu) = scratch();
     package(&option, &fmu);

@@ -1,12 +1,13 @@
 //! What works and is probably not meant: said in the log, and nowhere else.
 
+use crate::dynamics;
 use crate::fmi::instance::Instance;
 use crate::fmi::sys::Status;
 use crate::short::short;
 use crate::variables;
 
 /// The controls' names, their unit, and what may have been mistaken.
-const CONTROLS: [(&str, &str, &str); 2] =
+const CONTROLS: [(&str, &str, &str); dynamics::CONTROLS] =
     [("delta_e", " rad", "; inputs are in rad, not in degrees"), ("phi", "", "")];
 
 impl Instance {
@@ -24,16 +25,19 @@ impl Instance {
         }
     }
 
-    /// Says, once, that an input asks for more than its actuator can do: in `call`, if the master
-    /// listens.
-    pub(super) fn say_limit(&mut self, call: &str) {
-        if self.limit_said || !self.log.wants(Status::Ok) {
+    /// Says, once for each, that an input asks for more than its actuator can do: in `call`, if the
+    /// master listens.
+    pub(super) fn say_limits(&mut self, call: &str) {
+        if !self.log.wants(Status::Ok) {
             return;
         }
-        if let Some((control, asked, [min, max])) = self.flight.beyond_limits() {
-            let (name, unit, mistake) = CONTROLS[control];
+        for (control, (name, unit, mistake)) in CONTROLS.into_iter().enumerate() {
+            let beyond = self.flight.beyond_limits(control);
+            let (false, Some((asked, [min, max]))) = (self.limit_said[control], beyond) else {
+                continue;
+            };
             let [asked, limit] = [asked, asked.clamp(min, max)].map(short);
-            self.limit_said = true;
+            self.limit_said[control] = true;
             self.log.push(Status::Ok, || {
                 format!(
                     "{call}: {name} asks for {asked}{unit} in all and gets {limit}{unit}, its limit \

@@ -1,5 +1,6 @@
 //! One instance: its experiment, its steps and its status.
 
+use crate::dynamics::CONTROLS;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
 use crate::fmi::clock::same_instant;
@@ -51,8 +52,8 @@ pub struct Instance {
     pub(super) flight: Flight,
     pub(super) life: Life,
     logging_on: bool,
-    /// Whether it was said that an input is beyond its limit.
-    pub(super) limit_said: bool,
+    /// Whether it was said that a control is beyond its limit.
+    pub(super) limit_said: [bool; CONTROLS],
     /// Messages for the master.
     pub log: Log,
 }
@@ -72,7 +73,7 @@ impl Instance {
             flight,
             life: Life::NEW,
             logging_on,
-            limit_said: false,
+            limit_said: [false; CONTROLS],
             log,
         })
     }
@@ -169,7 +170,7 @@ impl Instance {
             });
         }
         self.say_ignored();
-        self.say_limit("fmi2ExitInitializationMode");
+        self.say_limits("fmi2ExitInitializationMode");
         Ok(())
     }
 
@@ -189,7 +190,7 @@ impl Instance {
     pub fn reset(&mut self) -> Outcome {
         self.flight = self.pristine.clone();
         self.life = Life::NEW;
-        self.limit_said = false;
+        self.limit_said = [false; CONTROLS];
         self.log.switch(false, &[])?;
         self.log.switch(self.logging_on, &[])
     }
@@ -233,7 +234,7 @@ impl Instance {
         }
         match self.flight.advance(end) {
             Ok(()) => {
-                self.say_limit("fmi2DoStep");
+                self.say_limits("fmi2DoStep");
                 Ok(())
             }
             // A part of the step was flown, so the status is discard. The integrator chose its own

@@ -171,7 +171,7 @@ impl Instance {
         if moved {
             self.flight.set_state(&state);
         }
-        self.say_limit("fmi2SetReal");
+        self.say_limits("fmi2SetReal");
         Ok(())
     }
 }
