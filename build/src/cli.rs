@@ -195,7 +195,7 @@ pub struct Poles {
 #[command(after_help = "\
 Examples:
   cargo ahv test                             while you work: three minutes, once all is compiled
-  cargo ahv test --thorough                  before you hand something on: twenty minutes
+  cargo ahv test --thorough                  before you hand something on: half an hour
   cargo ahv test --thorough --all-targets    fail if the library for Windows cannot be built or run")]
 pub struct Test {
     /// Masters beyond FMPy, examples, 100,000 random sequences, sanitizer, valgrind, benchmarks and
