@@ -180,7 +180,7 @@ impl Aero {
                 optional(&data.moment_phi),
                 Polynomial::new(&data.thrust_phi),
             ]),
-            elevator_bend: if d3 == 0.0 { 0.0 } else { d3 / d1 },
+            elevator_bend: d3 / if d3 == 0.0 { 1.0 } else { d1 },
             envelope: Envelope {
                 alpha: data.envelope.alpha_rad.value,
                 mach: data.envelope.mach.value,

@@ -200,7 +200,9 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Sur
 /// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
 fn plume_station(aero: &Aero) -> Option<f64> {
     let [lift, moment] = [LIFT, MOMENT].map(|row| aero.fits_phi.row(row).body(aero.elastic_alpha));
-    (lift != 0.0).then(|| aero.moment_centre - aero.chord * moment / lift)
+    // The divisor is chosen: a compiler may divide before it asks.
+    let divisor = if lift == 0.0 { 1.0 } else { lift };
+    (lift != 0.0).then_some(aero.moment_centre - aero.chord * moment / divisor)
 }
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
@@ -220,8 +222,7 @@ pub fn derive(
     let surfaces = surfaces(aero, beam, &modes.shape, strips);
     let [drag_slope, lift_slope] =
         [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
-    let per_mass: PerMode =
-        std::array::from_fn(|i| if i < modes.count { 1.0 / modes.modal_mass[i] } else { 0.0 });
+    let per_mass: PerMode = std::array::from_fn(|i| modes.per_modal_mass(i));
     // What the air answers to a field of incidence.
     let answer = |field: &dyn Fn(&Means) -> Field| {
         let start = Field::default();

@@ -115,6 +115,12 @@ impl Modes {
         at
     }
 
+    /// One over the modal mass, m/kg; 0 for a mode that does not exist. The divisor never is 0: a
+    /// compiler may divide before it asks.
+    pub fn per_modal_mass(&self, mode: usize) -> f64 {
+        f64::from(u8::from(mode < self.count)) / self.modal_mass[mode].max(f64::MIN_POSITIVE)
+    }
+
     /// Modal stiffness matrix K of `eta'' + D eta' + K eta = N / mu`, 1/s^2.
     pub fn stiffness(&self) -> [[f64; MODES]; MODES] {
         self.in_shapes(&self.omega_rad_per_s.map(|omega| omega * omega))

@@ -189,7 +189,8 @@ impl Body {
         let floor = std::array::from_fn(|i| {
             let weights = oscillators.iter().zip(&modes.slosh_displacement);
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
-            if i < modes.count { work / modes.modal_mass[i] } else { 0.0 }
+            // Of a mode that does not exist both are zero.
+            work / modes.modal_mass[i].max(f64::MIN_POSITIVE)
         });
         let rate = build.factors.pitch_rate;
         let tanks = chosen.tanks(build.fuel_fraction)?;
