@@ -50,6 +50,8 @@ struct Library {
 #[derive(Default)]
 struct Libraries {
     found: Vec<Library>,
+    /// Built elsewhere.
+    foreign: bool,
     /// What could not be built as it should be, why, and what to do.
     missing: Vec<String>,
 }
@@ -70,7 +72,7 @@ pub fn run(options: &Package) -> Result<()> {
     for library in given {
         libraries.add(library?)?;
     }
-    survives(&contents(&libraries.found)?)?;
+    libraries.foreign = true;
     package(libraries, &output)
 }
 
@@ -92,7 +94,7 @@ fn package(libraries: Libraries, output: &Path) -> Result<()> {
     let mut files = contents(&libraries.found)?;
     let host = host()?;
     if libraries.found.iter().any(|library| library.platform == host) {
-        files.extend(reference(&files)?);
+        files.extend(reference(&files, libraries.foreign)?);
     }
     write_fmu(files, output)?;
     for Library { platform, binary, .. } in &libraries.found {
@@ -219,10 +221,13 @@ fn contents(libraries: &[Library]) -> Result<Files> {
 }
 
 /// What comes out when the FMU is flown; it is flown as it will be packaged.
-fn reference(files: &Files) -> Result<Files> {
+fn reference(files: &Files, foreign: bool) -> Result<Files> {
     let directory = TempDir::with_prefix("fmu-")?;
     let file = directory.path().join("ahv.fmu");
     write(&file, archive::zip(files)?)?;
+    if foreign {
+        survives(&file)?;
+    }
     let fmu = Fmu::open(&file)?;
     let mut found = cross_check::fly_reference(&fmu)?;
     found.extend(related::files(&fmu.model)?);
@@ -231,12 +236,10 @@ fn reference(files: &Files) -> Result<Files> {
 
 /// A library from elsewhere may end the process that flies it, so another process tries it first. What
 /// goes wrong in any other way the reference flight tells.
-fn survives(files: &Files) -> Result<()> {
-    let directory = TempDir::with_prefix("fmu-")?;
-    let file = directory.path().join("ahv.fmu");
-    write(&file, archive::zip(files)?)?;
+fn survives(file: &Path) -> Result<()> {
+    let results = TempDir::with_prefix("fmu-")?;
     let mut fly = Command::new(env::current_exe()?);
-    fly.args(["fly", "--stop", "0.1", "--fmu"]).arg(&file).arg("--output").arg(directory.path());
+    fly.args(["fly", "--stop", "0.1", "--fmu"]).arg(file).arg("--output").arg(results.path());
     let status = fly.output()?.status;
     if status.code().is_none() {
         bail!("the library for this machine ends the process that flies it: {status}");
