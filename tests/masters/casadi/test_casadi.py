@@ -5,19 +5,14 @@ What it computes is held against the same FMU in FMPy.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from pathlib import Path
-
 import casadi as ca
 import fmpy
 import numpy as np
 import pytest
 from fmpy.fmi2 import FMU2Model
-from fmpy.model_description import ModelDescription, read_model_description
 
-REPOSITORY = Path(__file__).resolve().parents[3]
-CONFIGURATIONS = (1, 2, 3)
+from harness import CONFIGURATIONS, Package
+
 # Of CVODES per step, over the size of a state and for the smallest states; what it comes to after a
 # flight.
 TOLERANCE, SMALLEST, AGREEMENT = 1e-9, 1e-3, 1e-6
@@ -29,15 +24,15 @@ DISTURBANCE, INPUTS = 0.1, (0.003, 0.01, 5.0, -3.0)
 class Case:
     """One configuration in both masters, ready to evaluate."""
 
-    def __init__(self, folder: Path, configuration: int) -> None:
-        self.folder, self.configuration = folder, configuration
-        self.description: ModelDescription = read_model_description(str(folder))
-        self.dae = ca.DaeBuilder("ahv", str(folder))
+    def __init__(self, package: Package, configuration: int) -> None:
+        self.folder, self.configuration = package.folder, configuration
+        self.description = package.description
+        self.dae = ca.DaeBuilder("ahv", str(package.folder))
         self.dae.set("configuration", configuration)
         self.states, self.inputs = list(self.dae.x()), list(self.dae.u())
         self.start = np.array(self.dae.get(self.states))
         self.rates = self.dae.create("rates", ["x", "u"], ["ode"])
-        variables = {variable.name: variable for variable in self.description.modelVariables}
+        variables = package.variables
         self.references = {name: variable.valueReference for name, variable in variables.items()}
         nominal = [float(variables[name].nominal) for name in self.states]
         self.nominal = np.array(nominal)
@@ -64,19 +59,10 @@ class Case:
         return values[[self.states.index(name) for name in order]]
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The FMU under test, unzipped."""
-    path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu"))
-    folder = tmp_path_factory.mktemp("ahv")
-    fmpy.extract(str(path), unzipdir=str(folder))
-    return folder
-
-
 @pytest.fixture(params=CONFIGURATIONS)
-def case(folder: Path, request: pytest.FixtureRequest) -> Iterator[Case]:
+def case(package: Package, request: pytest.FixtureRequest) -> Case:
     """Every configuration."""
-    yield Case(folder, request.param)
+    return Case(package, request.param)
 
 
 def test_verif_casadi_starts_in_trimmed_flight(case: Case) -> None:
