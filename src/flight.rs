@@ -1,35 +1,40 @@
-//! A flight: parameters and inputs in, states and outputs out, step by step. Knows no FMI.
+//! A flight: [`Setup`] before it, with the parameters; [`Flight`] in it, with inputs, states and outputs.
+//! Knows no FMI.
 
+mod advice;
+mod controlled_vehicle;
+mod envelope_error;
 mod inputs;
-mod left;
-mod ready;
+mod parameters;
+mod setup;
 mod snapshot;
-mod steered;
 mod tangent;
 
+pub use advice::BeyondLimit;
 pub use inputs::{INPUT_ORDER, INPUTS, Inputs};
-pub use ready::method;
+pub use parameters::{InputMode, Offsets, Parameters};
+pub use setup::{Setup, method};
 pub use snapshot::Snapshot;
 
 use crate::dop853::DOP853;
-use crate::dynamics::{Control, Gust, Outputs, STATES, State, Vehicle, numberless};
+use crate::dynamics::{CONTROLS, Control, Gust, Outputs, State, Vehicle, numberless};
 use crate::envelope::Limited;
 use crate::error::Error;
 use crate::integrate::{Arrival, Integrator, MOST_TRIALS, System};
-use crate::parameters::Parameters;
 use crate::trim::Trim;
-use crate::vehicle::Data;
-use left::left;
-use ready::Ready;
-use std::sync::Arc;
-use steered::{Steered, in_effect};
+use controlled_vehicle::{ControlledVehicle, in_effect};
+use envelope_error::envelope_error;
+use setup::Method;
 
+/// Tolerances that the integrator works with: below the first, rounding errors of double precision
+/// decide, above the second the error estimate means nothing.
+pub const TOLERANCES: [f64; 2] = [1e-12, 1e-2];
 /// Tolerance of a master that asks for none.
 pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 /// First guess of the integrator's step, s: a tenth of a radian of the fastest mode.
 const FIRST_STEP: f64 = 1e-3;
 
-/// What a flight shows at an instant.
+/// Outputs, derivatives and controls at an instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample {
     /// Outputs.
@@ -40,57 +45,29 @@ pub struct Sample {
     pub control: Control,
 }
 
-/// A flight. A failed call leaves it as it was, but for [`Flight::advance`], which stops at the
-/// last valid instant.
+/// A flight, from [`Setup::start`]. A failed call leaves it as it was, but for [`Flight::advance`], which
+/// stops at the last valid instant.
 #[derive(Debug, Clone)]
 pub struct Flight {
-    data: Arc<Data>,
-    parameters: Parameters,
+    vehicle: Box<Vehicle>,
+    trim: Trim,
+    /// What the inputs are added to: the trim where they are deviations.
+    base: Control,
+    /// Integrates between the master's instants.
+    method: Box<Method>,
     inputs: Inputs,
     time: f64,
     integrator: Integrator,
     state: State,
-    /// Vehicle and trim, once initialised.
-    ready: Option<Box<Ready>>,
     /// Derivatives at the current state and controls, if known.
     slope: Option<State>,
-    /// What is shown, if known.
+    /// What was last evaluated, if it still holds.
     sample: Option<Sample>,
+    /// Whether it was said that a control is beyond its limit.
+    limit_said: [bool; CONTROLS],
 }
 
 impl Flight {
-    /// A flight on the ground: default parameters, zero inputs.
-    ///
-    /// # Errors
-    /// [`Error::Data`] if the data are not those of a vehicle.
-    pub fn new() -> Result<Self, Error> {
-        let data = Arc::new(Data::embedded()?);
-        Ok(Self {
-            parameters: Parameters::new(&data),
-            data,
-            inputs: Inputs::ZERO,
-            time: 0.0,
-            integrator: Integrator::new(DEFAULT_TOLERANCE, FIRST_STEP),
-            state: [0.0; STATES],
-            ready: None,
-            slope: None,
-            sample: None,
-        })
-    }
-
-    /// Parameters.
-    pub fn parameters(&self) -> &Parameters {
-        &self.parameters
-    }
-
-    /// Changes parameters; the flight has to be initialised again.
-    pub fn change(&mut self, edit: impl FnOnce(&mut Parameters)) {
-        edit(&mut self.parameters);
-        self.ready = None;
-        self.slope = None;
-        self.sample = None;
-    }
-
     /// Inputs as they were set.
     pub fn inputs(&self) -> &Inputs {
         &self.inputs
@@ -110,18 +87,12 @@ impl Flight {
         self.inputs.set_derivative(index, order, value);
     }
 
-    /// Start time (s) and relative tolerance of the integration.
-    pub fn set_experiment(&mut self, start: f64, tolerance: f64) {
-        self.time = start;
-        self.integrator = Integrator::new(tolerance, FIRST_STEP);
-    }
-
     /// Time, s.
     pub fn time(&self) -> f64 {
         self.time
     }
 
-    /// State; zeros before initialisation.
+    /// State.
     pub fn state(&self) -> &State {
         &self.state
     }
@@ -142,15 +113,14 @@ impl Flight {
     ///
     /// # Errors
     /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::evaluate`].
-    pub fn check(&mut self) -> Result<(), Error> {
-        self.initialise()?;
+    pub fn check(&self) -> Result<(), Error> {
         self.check_numbers()?;
-        let Some(ready) = &self.ready else { return Ok(()) };
-        let (control, gust) = self.control(ready);
-        if ready.vehicle.holds(&self.state, &control, gust) {
+        let (control, gust) = self.control();
+        if self.vehicle.holds(&self.state, &control, gust) {
             return Ok(());
         }
-        Err(left(ready, &self.state, &self.inputs, self.time))
+        let Self { vehicle, base, state, inputs, .. } = self;
+        Err(envelope_error(vehicle, base, state, inputs, self.time))
     }
 
     /// Whether the equations have numbers here.
@@ -160,64 +130,39 @@ impl Flight {
         })
     }
 
-    /// Vehicle, once initialised.
-    pub fn vehicle(&self) -> Option<&Vehicle> {
-        self.ready.as_ref().map(|ready| &*ready.vehicle)
+    /// Vehicle.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.vehicle
     }
 
-    /// Trim, once initialised; without trim, the start values with zero controls.
-    pub fn trim(&self) -> Option<&Trim> {
-        self.ready.as_ref().map(|ready| &ready.trim)
-    }
-
-    /// Builds the vehicle and finds the initial state. Does nothing if that is done already.
-    ///
-    /// # Errors
-    /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
-    /// region where the curve fits hold.
-    pub fn initialise(&mut self) -> Result<(), Error> {
-        let Self { ready, state, data, parameters, .. } = self;
-        Ready::of(ready, state, data, parameters).map(|_| ())
+    /// Trim; without trim, the start values with zero controls.
+    pub fn trim(&self) -> &Trim {
+        &self.trim
     }
 
     /// Controls in effect, cut to the actuators' limits, and gust.
-    fn control(&self, ready: &Ready) -> (Control, Gust) {
-        in_effect(&ready.vehicle, &ready.base, &self.inputs.values)
-    }
-
-    /// What a control asks for, and its limits, if its actuator cannot do it.
-    pub fn beyond_limits(&self, control: usize) -> Option<(f64, [f64; 2])> {
-        let ready = self.ready.as_ref()?;
-        let range @ [min, max] = ready.vehicle.ranges()[control];
-        let asked = ready.base[control] + self.inputs.values[control];
-        // A master that aims at the limit itself may miss it by rounding.
-        let slack = 1e-9 * (max - min);
-        (asked < min - slack || asked > max + slack).then_some((asked, range))
+    fn control(&self) -> (Control, Gust) {
+        in_effect(&self.vehicle, &self.base, &self.inputs.values)
     }
 
     /// Outputs and derivatives at the current instant, computed once per state and input.
     ///
     /// # Errors
-    /// [`Error::Numberless`] if an integrator from outside went too far; those of
-    /// [`Flight::initialise`], if the flight is not initialised yet.
-    pub fn evaluate(&mut self) -> Result<(), Error> {
-        self.initialise()?;
-        if let (None, Some(ready)) = (&self.sample, &self.ready) {
+    /// [`Error::Numberless`] if an integrator from outside went too far.
+    pub fn evaluate(&mut self) -> Result<&Sample, Error> {
+        if self.sample.is_none() {
             self.check_numbers()?;
-            let (control, gust) = self.control(ready);
-            let (derivatives, outputs) = match self.slope {
-                Some(slope) => (slope, ready.vehicle.outputs(&self.state, &control, gust, &slope)),
-                None => ready.vehicle.both(&self.state, &control, gust),
-            };
-            self.slope = Some(derivatives);
-            self.sample = Some(Sample { outputs, derivatives, control });
         }
-        Ok(())
-    }
-
-    /// What was last evaluated, if it still holds.
-    pub fn sample(&self) -> Option<&Sample> {
-        self.sample.as_ref()
+        let Self { vehicle, base, inputs, state, slope, sample, .. } = self;
+        Ok(sample.get_or_insert_with(|| {
+            let (control, gust) = in_effect(vehicle, base, &inputs.values);
+            let (derivatives, outputs) = match *slope {
+                Some(slope) => (slope, vehicle.outputs(state, &control, gust, &slope)),
+                None => vehicle.both(state, &control, gust),
+            };
+            *slope = Some(derivatives);
+            Sample { outputs, derivatives, control }
+        }))
     }
 
     /// Flies until `end` (s), exactly. Inputs are constant, or follow the derivatives that were given
@@ -228,24 +173,22 @@ impl Flight {
     /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if
     /// the tolerance cannot be held, [`Error::TooLong`] if the interval takes too many steps.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
-        let Self { ready, state, data, parameters, inputs, .. } = self;
-        let ready = Ready::of(ready, state, data, parameters)?;
-        let steered = Steered {
-            vehicle: &ready.vehicle,
-            base: ready.base,
+        let Self { vehicle, base, method, state, inputs, .. } = self;
+        let controlled = ControlledVehicle {
+            vehicle,
+            base: *base,
             inputs,
-            held: (!inputs.moving())
-                .then(|| in_effect(&ready.vehicle, &ready.base, &inputs.values)),
+            held: (!inputs.moving()).then(|| in_effect(vehicle, base, &inputs.values)),
         };
         let length = end - self.time;
         // Counted from here, so that a late start costs no digits.
         let interval = [0.0, length];
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
-        let arrival = if steered.steady() {
-            integrator.advance(&mut *ready.method, &steered, state, interval, slope)
+        let arrival = if controlled.steady() {
+            integrator.advance(&mut **method, &controlled, state, interval, slope)
         } else {
-            integrator.advance(&mut &DOP853, &steered, state, interval, slope)
+            integrator.advance(&mut &DOP853, &controlled, state, interval, slope)
         };
         let flown = match arrival {
             Arrival::Complete => length,
@@ -260,7 +203,7 @@ impl Flight {
             }
             Arrival::Left(flown) => {
                 self.time += flown;
-                Err(left(ready, state, inputs, self.time))
+                Err(envelope_error(vehicle, base, state, inputs, self.time))
             }
             Arrival::Stuck(flown) => {
                 self.time += flown;

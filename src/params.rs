@@ -16,8 +16,8 @@ pub struct Embedded {
     pub name: &'static str,
     /// The file itself.
     pub text: &'static str,
-    /// The same, packed.
-    packed: &'static [u8],
+    /// The same without its comments, packed.
+    pub packed: &'static [u8],
 }
 
 /// The build script put the files there.
@@ -43,6 +43,10 @@ pub const PARKER2007: Embedded = embedded!("aero/parker2007");
 pub const SHOCK_EXPANSION: Embedded = embedded!("aero/shock_expansion");
 /// Coefficient set of the user, if the library was built with one.
 pub const OWN: Option<Embedded> = own();
+
+/// All data files.
+pub const DATA_FILES: [Option<Embedded>; 6] =
+    [Some(VEHICLE), Some(EARTH), Some(XU2015), Some(PARKER2007), Some(SHOCK_EXPANSION), OWN];
 
 #[cfg(own_coefficients)]
 const fn own() -> Option<Embedded> {

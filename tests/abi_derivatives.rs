@@ -4,8 +4,8 @@
 
 mod common;
 
-use ahv::fmi::sys::Status;
 use common::{Api, Slave, reference};
+use fmi_model::v2::sys::Status;
 
 /// A flexible, sloshing vehicle.
 const SLOSH_BEAM: i32 = 3;

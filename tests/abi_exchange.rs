@@ -5,8 +5,8 @@
 mod common;
 
 use ahv::dynamics::{NOMINAL, STATES, State};
-use ahv::fmi::sys::{EventInfo, Status};
 use common::{Api, Slave, reference};
+use fmi_model::v2::sys::{EventInfo, Status};
 
 /// A flexible, sloshing vehicle.
 const SLOSH_BEAM: i32 = 3;

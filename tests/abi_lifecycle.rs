@@ -5,9 +5,9 @@
 mod common;
 
 use ahv::dynamics::{STATES, State};
-use ahv::fmi::lifecycle::{CALLS, PHASES, Phase};
-use ahv::fmi::sys::{EventInfo, Status, StatusKind};
 use common::{Api, Slave, configurations, reference};
+use fmi_model::v2::calls::{CALLS, PHASES, Phase};
+use fmi_model::v2::sys::{EventInfo, Status, StatusKind};
 use std::ptr::{null, null_mut};
 
 /// The tables of FMI 2.0.5, sections 4.2.4 and 3.2.3, typed from the standard: columns instantiated,

@@ -4,10 +4,10 @@
 
 mod common;
 
-use ahv::fmi::log::CATEGORIES;
-use ahv::fmi::sys::{self, CallbackFunctions, FmiString, Status, Type};
-use ahv::variables::guid;
 use common::{Api, Sink, Slave, callbacks};
+use fmi_model::identity::guid;
+use fmi_model::log::CATEGORIES;
+use fmi_model::v2::sys::{self, CallbackFunctions, FmiString, Status, Type};
 use std::ffi::{CString, c_void};
 use std::ptr::null;
 
@@ -72,7 +72,7 @@ fn every_message_has_the_instance_name_a_declared_category_and_the_status_return
     assert_eq!(statuses.last(), Some(&Status::Discard));
     for record in log {
         assert_eq!(record.name, "one");
-        let declared = |category: &ahv::fmi::log::Category| {
+        let declared = |category: &fmi_model::log::Category| {
             category.name().to_str() == Ok(record.category.as_str())
         };
         assert!(CATEGORIES.iter().any(declared), "{record:?}");
@@ -189,7 +189,7 @@ fn parameters_without_effect_are_named_and_have_none() {
 #[test]
 fn the_callbacks_are_copied_and_a_null_logger_is_fine() {
     let api = Api::load();
-    let (sink, guid) = (Sink::default(), CString::new(guid()).unwrap());
+    let (sink, guid) = (Sink::default(), CString::new(guid::<ahv::flight::Setup>()).unwrap());
     for logger in [None, Some(common::recorder())] {
         let functions = Box::new(CallbackFunctions { logger, ..callbacks(&sink) });
         let name = CString::new("short-lived").unwrap();
@@ -241,7 +241,7 @@ unsafe extern "C" fn ask(
 #[test]
 fn a_logger_may_call_the_instance_that_is_logging() {
     let mut master = Curious { api: Api::load(), c: std::ptr::null_mut(), heard: 0 };
-    let guid = CString::new(guid()).unwrap();
+    let guid = CString::new(guid::<ahv::flight::Setup>()).unwrap();
     // SAFETY: valid arguments; a live instance, freed once. Without variable arguments a variadic
     // function is called like any other.
     unsafe {

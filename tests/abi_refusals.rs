@@ -4,8 +4,8 @@
 
 mod common;
 
-use ahv::fmi::sys::{Status, StatusKind};
 use common::{Api, Slave, reference};
+use fmi_model::v2::sys::{Status, StatusKind};
 use std::ptr::{null, null_mut};
 
 const ERROR: Status = Status::Error;

@@ -4,8 +4,8 @@
 
 mod common;
 
-use ahv::fmi::sys::Status;
 use common::{Api, Slave};
+use fmi_model::v2::sys::Status;
 use std::sync::mpsc::channel;
 use std::thread;
 

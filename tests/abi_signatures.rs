@@ -5,7 +5,7 @@
 //! The folder is `headers/` of the FMI 2.0.5 distribution; FMPy has the same files in `c-code/`, the
 //! crate fmi-sys in `fmi-standard2/headers/`.
 
-use ahv::fmi::sys::{self, signatures};
+use fmi_model::v2::sys::{self, signatures};
 use std::fmt::Write;
 use std::io::Write as _;
 use std::mem::{offset_of, size_of};

@@ -4,8 +4,8 @@
 
 mod common;
 
-use ahv::fmi::sys::Status;
 use common::{Api, Random, Slave, configurations};
+use fmi_model::v2::sys::Status;
 use std::ptr::null_mut;
 
 /// Flies on for a while: bits of all values after each step.

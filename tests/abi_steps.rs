@@ -2,8 +2,8 @@
 
 mod common;
 
-use ahv::fmi::sys::Status;
 use common::{Api, Slave};
+use fmi_model::v2::sys::Status;
 
 #[test]
 fn senseless_steps_are_refused_and_change_nothing() {

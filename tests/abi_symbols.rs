@@ -2,7 +2,7 @@
 
 mod common;
 
-use ahv::fmi::sys::signatures;
+use fmi_model::v2::sys::signatures;
 use object::read::NameOrOrdinal;
 use object::{Object, ObjectSymbol};
 use std::collections::BTreeSet;

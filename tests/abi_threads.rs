@@ -2,8 +2,8 @@
 
 mod common;
 
-use ahv::fmi::sys::Status;
 use common::{Api, Slave, configurations};
+use fmi_model::v2::sys::Status;
 use std::thread;
 
 const THREADS: u32 = 8;

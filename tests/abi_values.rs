@@ -4,9 +4,10 @@
 
 mod common;
 
-use ahv::fmi::sys::{CallbackFunctions, Component, FmiString, Status, Type};
-use ahv::variables::{Kind, Role, TABLE, guid};
+use ahv::variables::TABLE;
 use common::{Api, Sink, Slave, callbacks, reference};
+use fmi_model::v2::sys::{CallbackFunctions, Component, FmiString, Status, Type};
+use fmi_model::{Kind, Role, identity::guid};
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
@@ -37,7 +38,7 @@ fn instantiation_says_why_it_fails_and_accepts_any_resource_location() {
     let api = Api::load();
     let sink = Sink::default();
     let functions = callbacks(&sink);
-    let own = CString::new(guid()).unwrap();
+    let own = CString::new(guid::<ahv::flight::Setup>()).unwrap();
     let (name, own) = (c"one".as_ptr(), own.as_ptr());
     let cs = Type::CO_SIMULATION;
     let cases = [
@@ -83,7 +84,7 @@ fn null_instances_are_refused_and_freeing_null_is_ignored() {
         assert_eq!((api.get_real)(none, &0, 1, &mut 0.0), Status::Error);
         assert_eq!((api.free_state)(none, null_mut()), Status::Error);
         assert_eq!(
-            (api.get_boolean_status)(none, ahv::fmi::sys::StatusKind(3), null_mut()),
+            (api.get_boolean_status)(none, fmi_model::v2::sys::StatusKind(3), null_mut()),
             Status::Error
         );
     }
@@ -109,7 +110,7 @@ fn null_arrays_and_absurd_lengths_are_refused_and_empty_ones_need_no_array() {
         assert_eq!((api.get_real)(c, null(), 0, null_mut()), Status::Ok);
         assert_eq!((api.get_string)(c, null(), 0, null_mut()), Status::Ok);
         assert_eq!(
-            (api.get_real_status)(c, ahv::fmi::sys::StatusKind(2), null_mut()),
+            (api.get_real_status)(c, fmi_model::v2::sys::StatusKind(2), null_mut()),
             Status::Error
         );
         assert_eq!((api.set_debug_logging)(c, 1, 1, null()), Status::Error);
@@ -198,7 +199,7 @@ fn every_variable_is_read_by_the_function_of_its_type_and_refused_by_the_others(
 fn parameters_can_be_set_until_initialisation_ends_and_inputs_always() {
     let api = Api::load();
     let slave = Slave::new(&api);
-    let settable = |role| matches!(role, Role::Parameter | Role::Input(_));
+    let settable = |role| matches!(role, Role::Parameter { .. } | Role::Input(_));
     let set_all = |slave: &Slave| {
         for (vr, variable) in (0..).zip(&TABLE).filter(|(_, variable)| settable(variable.role)) {
             // A factor cannot be zero.

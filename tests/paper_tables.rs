@@ -8,7 +8,7 @@ mod paper;
 use ahv::dynamics::Vehicle;
 use ahv::vehicle::AeroSet::{Parker2007, Xu2015};
 use ahv::vehicle::Configuration;
-use model::{CONFIGURATIONS, assert_close, build, data, deviation, flight, vehicle, vehicle_with};
+use model::{CONFIGURATIONS, assert_close, build, data, deviation, vehicle, vehicle_with};
 use paper::{FLEXIBLE, ends, floats, pairs, printed, published, seen, size};
 
 /// Table 1 is met by identified data, to more digits than it prints.
@@ -149,7 +149,6 @@ fn paper_less_propellant_raises_the_frequencies() {
 
 #[test]
 fn paper_the_default_flight_is_the_papers_condition() {
-    let flight = flight(Configuration::SloshBeam);
-    let condition = flight.parameters().build.condition;
+    let condition = model::setup(&[]).parameters.build.condition;
     assert_eq!((condition.mach, condition.altitude, condition.gamma), (8.0, 25_900.0, 0.0));
 }

@@ -21,19 +21,15 @@ const BOOKS: f64 = 1e-9;
 /// The instant at which the fuel runs out, s: the flow follows the loss of mass a little.
 const EMPTY_AT: f64 = 1e-4;
 
-fn burning(edit: impl FnOnce(&mut ahv::parameters::Parameters)) -> Flight {
-    let mut flight = Flight::new().unwrap();
-    flight.change(|parameters| {
+fn burning(edit: impl FnOnce(&mut ahv::flight::Parameters)) -> Flight {
+    model::flight_with(|parameters| {
         parameters.build.fuel_burn = true;
         edit(parameters);
-    });
-    flight.initialise().unwrap();
-    flight
+    })
 }
 
 fn fuel_rate(flight: &mut Flight) -> f64 {
-    flight.evaluate().unwrap();
-    flight.sample().unwrap().derivatives[FUEL]
+    flight.evaluate().unwrap().derivatives[FUEL]
 }
 
 #[test]
@@ -69,8 +65,8 @@ fn verif_the_specific_impulse_is_a_scramjets_or_stands_in_the_errata() {
     ] {
         let mut flight = burning(|p| p.build.aero = set);
         let rate = fuel_rate(&mut flight);
-        let gravity = flight.vehicle().unwrap().atmosphere.sea_level_gravity();
-        let impulse = flight.sample().unwrap().outputs.loads.thrust / (-rate * gravity);
+        let gravity = flight.vehicle().atmosphere.sea_level_gravity();
+        let impulse = flight.evaluate().unwrap().outputs.loads.thrust / (-rate * gravity);
         assert!((impulse - expected).abs() < part * expected, "{set:?}: {impulse} s");
         let usual = (2000.0..3500.0).contains(&impulse);
         assert_eq!(usual, set == AeroSet::ShockExpansion);
@@ -99,7 +95,7 @@ fn verif_the_books_of_mass_balance() {
         let burnt = start - flight.state()[FUEL];
         assert!(burnt > 0.5, "{burnt} kg/m");
         assert_close("fuel", burnt, integral, BOOKS);
-        let vehicle = flight.vehicle().unwrap();
+        let vehicle = flight.vehicle();
         let left = vehicle.burn.as_ref().unwrap().airframe(flight.state()[FUEL]).mass;
         assert_close("mass", vehicle.airframe.mass - left, burnt, BOOKS);
     }
@@ -112,8 +108,8 @@ fn verif_without_burning_no_fuel_goes_and_an_idle_engine_takes_none() {
     assert_eq!(fuel_rate(&mut still), 0.0);
     still.advance(0.5).unwrap();
     assert_eq!(still.state()[FUEL], start[FUEL]);
-    let mut idle = burning(|p| p.input_mode = ahv::parameters::InputMode::Absolute);
-    let delta_e = idle.trim().unwrap().control[0];
+    let mut idle = burning(|p| p.input_mode = ahv::flight::InputMode::Absolute);
+    let delta_e = idle.trim().control[0];
     idle.set_input(0, delta_e);
     assert_eq!(fuel_rate(&mut idle), 0.0);
     idle.advance(0.3).unwrap();
@@ -161,9 +157,9 @@ fn verif_the_flight_ends_when_the_fuel_does() {
 fn verif_what_the_equations_of_burning_leave_out_is_small() {
     // Errata, 22. All at full thrust of the envelope: phi 1.5 burns some six times the trim's fuel.
     let flight = burning(|_| ());
-    let vehicle = flight.vehicle().unwrap();
+    let vehicle = flight.vehicle();
     let burn: &Burn = vehicle.burn.as_ref().unwrap();
-    let x = flight.trim().unwrap().state;
+    let x = flight.trim().state;
     let rate = -vehicle.derivatives(&x, &[0.2, 1.5], [0.0; GUSTS])[FUEL];
     assert!(rate < 10.0, "{rate} kg/(m s)");
     let size = 1e-3 * vehicle.fuel;

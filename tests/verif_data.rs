@@ -3,7 +3,7 @@
 
 use ahv::dynamics::Vehicle;
 use ahv::error::Error;
-use ahv::parameters::Parameters;
+use ahv::flight::Parameters;
 use ahv::params::{
     AeroData, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData, XU2015,
 };

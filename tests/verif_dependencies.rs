@@ -5,10 +5,11 @@ mod model;
 
 use ahv::dynamics::CONTROLS;
 use ahv::dynamics::{NOMINAL, STATES};
-use ahv::flight::{Flight, INPUTS, Snapshot};
-use ahv::variables::{Role, TABLE, Variable};
+use ahv::flight::{Flight, INPUTS, Setup};
+use ahv::variables::TABLE;
 use ahv::vehicle::{AeroSet, Configuration};
-use model::{AERO_SETS, CONFIGURATIONS};
+use fmi_model::{Role, Variable};
+use model::{AERO_SETS, CONFIGURATIONS, flight_with, setup};
 
 /// Perturbation over the nominal value: large enough to show in every digit, small enough to stay
 /// where the curve fits hold.
@@ -17,43 +18,41 @@ const STEPS: [f64; 2] = [1e-2, 2e-2];
 const LINEAR: f64 = 1e-9;
 
 /// Values of all rows with one known moved by `size` of its nominal value.
-fn values(base: &Snapshot, known: usize, size: f64) -> Vec<f64> {
-    let mut moved = *base;
+fn values(base: &Flight, known: usize, size: f64) -> Vec<f64> {
+    let mut moved = base.snapshot();
     if known < STATES {
         moved.state[known] += size * NOMINAL[known];
     } else {
         moved.inputs.values[known - STATES] += size;
     }
-    let mut flight = Flight::new().unwrap();
-    flight.rewind(&moved).unwrap();
-    flight.evaluate().unwrap();
-    TABLE.iter().map(|variable| variable.get(&flight)).collect()
+    let (setup, mut flight) = (setup(&[]), base.clone());
+    flight.rewind(&moved);
+    TABLE.iter().map(|variable| variable.value(&setup, &mut flight).unwrap()).collect()
 }
 
 /// A flight with every state in motion, so that no effect hides at zero.
-fn moving(configuration: Configuration, set: AeroSet) -> Snapshot {
-    let mut flight = model::flight(configuration);
-    flight.change(|p| p.build.aero = set);
-    // The fuel matters only while it burns.
-    let burns = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
-    flight.change(|p| p.build.fuel_burn = burns);
-    // The pitch rate matters to the loads only where its terms count.
-    flight.change(|p| {
-        p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 }
+fn moving(configuration: Configuration, set: AeroSet) -> Flight {
+    let mut flight = flight_with(|p| {
+        p.build.configuration = configuration;
+        p.build.aero = set;
+        // The fuel matters only while it burns.
+        p.build.fuel_burn = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
+        // The pitch rate matters to the loads only where its terms count.
+        p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 };
     });
-    flight.initialise().unwrap();
-    let states = flight.vehicle().unwrap().states();
+    let states = flight.vehicle().states();
     let mut snapshot = flight.snapshot();
     for (i, value) in snapshot.state.iter_mut().enumerate().take(states) {
         *value += 0.1 * NOMINAL[i] * [1.0, -0.7, 0.9, 0.8, -1.1][i % 5];
     }
     // In still air the flight-path angle would not matter to the loads.
     snapshot.inputs.values[CONTROLS..].copy_from_slice(&[5.0, 3.0]);
-    snapshot
+    flight.rewind(&snapshot);
+    flight
 }
 
-fn checked(variable: &Variable) -> bool {
-    matches!(variable.role, Role::Output | Role::OutputState(_) | Role::Derivative(_))
+fn checked(variable: &Variable<Setup>) -> bool {
+    matches!(variable.role, Role::Output(_) | Role::OutputState(_) | Role::Derivative(_))
 }
 
 #[test]

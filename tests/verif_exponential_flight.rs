@@ -8,13 +8,13 @@ use ahv::decoupling::Decoupling;
 use ahv::dop853::DOP853;
 use ahv::dynamics::{Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv::exponential::Exponential;
-use ahv::flight::{Flight, method};
+use ahv::flight::method;
 use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
 use ahv::linear::Linear;
 use ahv::modes::MODES;
 use ahv::trim::Trim;
 use ahv::vehicle::Configuration;
-use model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight};
+use model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight, flight_with, setup};
 use proptest::prelude::*;
 
 /// How well the coordinates go there and back, and L meets the Jacobian, in typical sizes.
@@ -23,10 +23,8 @@ const ROUNDING: f64 = 1e-9;
 #[test]
 fn verif_the_coordinates_decouple_every_vehicle() {
     for build in builds() {
-        let mut flight = Flight::new().unwrap();
-        flight.change(|parameters| parameters.build = build);
-        flight.initialise().unwrap();
-        let (vehicle, trim) = (flight.vehicle().unwrap(), flight.trim().unwrap());
+        let flight = flight_with(|parameters| parameters.build = build);
+        let (vehicle, trim) = (flight.vehicle(), flight.trim());
         let jacobian = Linear::new(vehicle, &trim.state, &trim.control).a;
         let slow = RIGID - 2;
         let decoupling =
@@ -118,7 +116,7 @@ proptest! {
         steps in prop_oneof![Just(1_u32), Just(4), Just(40), Just(400)],
         digits in 5..10_i32,
     ) {
-        let mut parameters = *Flight::new().unwrap().parameters();
+        let mut parameters = setup(&[]).parameters;
         parameters.build.configuration = CONFIGURATIONS[configuration];
         parameters.build.fuel_fraction = fuel;
         parameters.build.fuel_burn = burn;
@@ -154,8 +152,8 @@ proptest! {
         let mut time = 0.0;
         for length in lengths {
             time += length;
-            let mut other = Flight::new().unwrap();
-            other.rewind(&one.snapshot()).unwrap();
+            let mut other = flight(Configuration::SloshBeam);
+            other.rewind(&one.snapshot());
             let ends = (one.advance(time), other.advance(time));
             prop_assert_eq!(ends.0.is_ok(), ends.1.is_ok());
             prop_assert_eq!(one.snapshot(), other.snapshot());
@@ -169,13 +167,11 @@ fn verif_what_rests_arrives_at_once_however_long_the_step() {
     let mut resting = 0;
     for altitude in (0..30).map(|i| 25_000.0 + 100.0 * f64::from(i)) {
         for aero in AERO_SETS {
-            let mut flight = Flight::new().unwrap();
-            flight.change(|parameters| {
+            let mut flight = flight_with(|parameters| {
                 parameters.build.configuration = Configuration::Rigid;
                 parameters.build.aero = aero;
                 parameters.build.condition.altitude = altitude;
             });
-            flight.initialise().unwrap();
             let start = *flight.state();
             resting += usize::from(flight.advance(1e300).is_ok() && *flight.state() == start);
         }
@@ -186,7 +182,7 @@ fn verif_what_rests_arrives_at_once_however_long_the_step() {
 #[test]
 fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
     // The lapse rate jumps at 32 km of geopotential altitude, 32.16 km above the ground.
-    let mut parameters = *Flight::new().unwrap().parameters();
+    let mut parameters = setup(&[]).parameters;
     let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
     parameters.build.condition.altitude = 32_150.0;
     let mut start = parameters.build.condition.start(&vehicle.atmosphere);

@@ -7,13 +7,13 @@ mod model;
 use ahv::dynamics::Vehicle;
 use ahv::error::Error;
 use ahv::factors::Factors;
-use ahv::flight::Flight;
+use ahv::flight::Setup;
 use ahv::linear::Linear;
 use ahv::trim::trim;
-use ahv::variables::find;
 use ahv::vehicle::{AeroSet, Build, Configuration};
 use edited::{SETS, Texts, add, edit};
-use model::{CONFIGURATIONS, build, data};
+use fmi_model::table::find;
+use model::{CONFIGURATIONS, build, data, setup};
 
 /// The mass centre moved twice, or once by the sum: a rounding of metres, which trim and modes multiply.
 const ROUNDING: f64 = 1e-9;
@@ -199,14 +199,6 @@ fn verif_a_shift_of_the_mass_centre_is_the_same_shift_in_the_file() {
     }
 }
 
-fn flight(settings: &[(&str, f64)]) -> Flight {
-    let mut flight = Flight::new().unwrap();
-    for (name, value) in settings {
-        find(name).unwrap().set(&mut flight, *value).unwrap_or_else(|error| panic!("{error}"));
-    }
-    flight
-}
-
 #[test]
 fn verif_factors_without_a_trim_are_refused_with_the_limit() {
     for configuration in CONFIGURATIONS {
@@ -215,23 +207,19 @@ fn verif_factors_without_a_trim_are_refused_with_the_limit() {
             ([("elevator_factor", 0.3), ("mass_factor", 1.2)], "delta_e = "),
             ([("thrust_factor", 0.1), ("drag_factor", 2.0)], "phi = "),
         ] {
-            let mut flight = flight(&settings);
-            flight.change(|p| {
-                p.build.configuration = configuration;
-                p.build.aero = AeroSet::Parker2007;
-            });
-            let error = flight.initialise().unwrap_err();
+            let mut setup = setup(&settings);
+            setup.parameters.build.configuration = configuration;
+            setup.parameters.build.aero = AeroSet::Parker2007;
+            let error = setup.fly().unwrap_err();
             assert!(matches!(error, Error::Trim { .. }), "{settings:?}: {error}");
             let text = error.to_string();
             assert!(text.contains(limit) && text.contains("is beyond ["), "{settings:?}: {text}");
         }
         // The first-principles engine chokes before it needs more fuel than it can get.
-        let mut flight = flight(&[("thrust_factor", 0.1)]);
-        flight.change(|p| {
-            p.build.configuration = configuration;
-            p.build.aero = AeroSet::ShockExpansion;
-        });
-        let error = flight.initialise().unwrap_err();
+        let mut setup = setup(&[("thrust_factor", 0.1)]);
+        setup.parameters.build.configuration = configuration;
+        setup.parameters.build.aero = AeroSet::ShockExpansion;
+        let error = setup.fly().unwrap_err();
         assert!(matches!(error, Error::Value { .. }), "{error}");
         assert!(error.to_string().contains("it makes choking_margin -"), "{error}");
     }
@@ -239,8 +227,8 @@ fn verif_factors_without_a_trim_are_refused_with_the_limit() {
 
 #[test]
 fn verif_an_inertia_that_no_body_has_is_refused_in_a_flight_too() {
-    let mut flight = flight(&[("inertia_factor", 0.1), ("mass_centre_shift", 3.0)]);
-    let error = flight.initialise().unwrap_err();
+    let setup = setup(&[("inertia_factor", 0.1), ("mass_centre_shift", 3.0)]);
+    let error = setup.fly().unwrap_err();
     let Error::Inertia { inertia, least, .. } = error else { panic!("{error}") };
     assert!(inertia < least, "{inertia} {least}");
     assert!(error.to_string().contains("inertia_factor"), "{error}");
@@ -258,21 +246,20 @@ fn verif_a_factor_that_is_none_is_refused_by_name_value_and_range() {
         for value in none.into_iter().chain([-3.1, 10.1]) {
             assert_refused(name, value);
         }
-        flight(&[(name, 0.0)]).initialise().unwrap();
+        setup(&[(name, 0.0)]).fly().unwrap();
     }
 }
 
 fn assert_refused(name: &str, value: f64) {
-    let (variable, mut flight) = (find(name).unwrap(), flight(&[]));
-    let before = *flight.parameters();
-    let error = variable.set(&mut flight, value).unwrap_err();
+    let (variable, mut setup) = (find::<Setup>(name).unwrap(), setup(&[]));
+    let before = setup.clone();
+    let error = variable.set(&mut setup, value).unwrap_err();
     let text = error.to_string();
-    let Error::Value { variable: told, value: shown, .. } = error else { panic!("{text}") };
-    assert_eq!((told.as_str(), shown.to_bits()), (name, value.to_bits()));
+    assert_eq!((error.variable, error.value.to_bits()), (name, value.to_bits()));
     let [min, max] = variable.range.unwrap();
     let range = if value.is_finite() { format!("[{min}, {max}]") } else { "finite".into() };
     assert!(text.contains(name) && text.contains(&range), "{text}");
-    assert_eq!(*flight.parameters(), before);
+    assert_eq!(setup, before);
 }
 
 #[test]

@@ -9,7 +9,9 @@ use ahv::linear::Linear;
 use ahv::scalar::{Dual, Scalar};
 use ahv::trim::{Condition, trim};
 use ahv::vehicle::{AeroSet, Configuration};
-use model::{AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, vehicle, vehicle_with};
+use model::{
+    AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, flight_with, vehicle, vehicle_with,
+};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.
@@ -158,8 +160,10 @@ fn verif_examples_stay_inside_the_envelope() {
         let rows: Vec<Vec<f64>> =
             lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
         for configuration in CONFIGURATIONS {
-            let mut flight = flight(configuration);
-            flight.change(|p| p.build.aero = set);
+            let mut flight = flight_with(|p| {
+                p.build.configuration = configuration;
+                p.build.aero = set;
+            });
             for (i, row) in rows.iter().enumerate() {
                 for (name, value) in names.iter().zip(row).skip(1) {
                     flight.set_input(usize::from(*name == "phi"), *value);
@@ -181,7 +185,7 @@ fn verif_zeros_are_where_the_rosenbrock_matrix_is_singular() {
     use nalgebra::{Complex, DMatrix};
     for configuration in CONFIGURATIONS {
         let flight = flight(configuration);
-        let (vehicle, trim) = (flight.vehicle().unwrap(), flight.trim().unwrap());
+        let (vehicle, trim) = (flight.vehicle(), flight.trim());
         let linear = Linear::new(vehicle, &trim.state, &trim.control);
         let n = vehicle.states();
         let zeros = linear.zeros();

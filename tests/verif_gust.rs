@@ -8,7 +8,7 @@ use ahv::flight::Flight;
 use ahv::scalar::{Dual, Scalar};
 use ahv::trim::Condition;
 use ahv::vehicle::Configuration;
-use model::{builds, data, deviation, flight, vehicle};
+use model::{builds, data, deviation, flight_with, vehicle};
 
 /// Forces turned from one pair of axes into another, over g: a few roundings.
 const TURNED: f64 = 1e-12;
@@ -98,16 +98,18 @@ fn verif_a_gust_has_exact_derivatives_also_where_it_is_zero() {
 
 #[test]
 fn verif_the_envelope_is_that_of_the_incidence_to_the_moving_air() {
-    let gusty = |gust: f64| {
-        let mut flight = flight(Configuration::Rigid);
+    let gusty = |gust: f64, alpha: f64| {
+        let mut flight = flight_with(|parameters| {
+            parameters.build.configuration = Configuration::Rigid;
+            parameters.offsets.alpha = alpha;
+        });
         flight.set_input(W_GUST, gust);
         flight
     };
     let up = |flight: &mut Flight| flight.advance(0.01).map(|()| flight.state()[2]);
-    assert!(up(&mut gusty(30.0)).unwrap() > up(&mut gusty(0.0)).unwrap());
+    assert!(up(&mut gusty(30.0, 0.0)).unwrap() > up(&mut gusty(0.0, 0.0)).unwrap());
     // 10 degrees of incidence end the curve fits: here from the first instant on.
-    let mut flight = gusty(150.0);
-    flight.change(|parameters| parameters.offsets.alpha = 0.1);
+    let mut flight = gusty(150.0, 0.1);
     let error = flight.advance(0.01).unwrap_err().to_string();
     assert!(error.contains("alpha"), "{error}");
     assert_eq!(flight.time(), 0.0);

@@ -284,8 +284,7 @@ fn verif_a_million_steps_do_not_drift() {
 #[test]
 fn verif_a_late_start_costs_no_digits() {
     let fly = |start: f64| {
-        let mut flight = flight(ahv::vehicle::Configuration::SloshBeam);
-        flight.set_experiment(start, 1e-8);
+        let mut flight = model::setup(&[]).start(start, 1e-8).unwrap();
         flight.set_input(0, 2e-3);
         flight.advance(start + 0.5).unwrap();
         *flight.state()

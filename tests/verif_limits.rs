@@ -6,8 +6,7 @@ mod model;
 use ahv::dynamics::{GUSTS, STATES};
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::variables::find;
-use model::data;
+use model::{data, setup, shown};
 
 const NAMES: [&str; 2] = ["slosh1", "slosh2"];
 /// The instant is located to a nanosecond, in which a sloshing mass moves by less than this, m.
@@ -15,21 +14,15 @@ const MOVED: f64 = 1e-7;
 /// Enough for a sloshing mass to swing to both sides, s.
 const SWING_S: f64 = 2.0;
 
-fn set(flight: &mut Flight, name: &str, value: f64) {
-    find(name).unwrap().set(flight, value).unwrap_or_else(|error| panic!("{error}"));
-}
-
 /// A flight whose sloshing mass is thrown with a speed that carries it a number of depths far.
 fn thrown(tank: usize, depths: f64, fuel_burn: bool) -> (Flight, f64) {
-    let mut flight = Flight::new().unwrap();
-    set(&mut flight, "fuel_burn", f64::from(fuel_burn));
-    flight.initialise().unwrap();
-    let airframe = &flight.vehicle().unwrap().airframe;
+    let burn = ("fuel_burn", f64::from(fuel_burn));
+    let flight = setup(&[burn]).fly().unwrap();
+    let airframe = &flight.vehicle().airframe;
     let depth = airframe.depth[tank];
-    let speed = depths * depth * flight.vehicle().unwrap().omega[3 + tank];
-    set(&mut flight, ["slosh1_dot_offset", "slosh2_dot_offset"][tank], speed);
-    flight.initialise().unwrap();
-    (flight, depth)
+    let speed = depths * depth * flight.vehicle().omega[3 + tank];
+    let offset = (["slosh1_dot_offset", "slosh2_dot_offset"][tank], speed);
+    (setup(&[burn, offset]).fly().unwrap(), depth)
 }
 
 /// Depth of the liquid in a tank with what is on board, m.
@@ -65,10 +58,9 @@ fn verif_liquid_that_reaches_its_depth_ends_the_step_at_the_last_valid_instant()
 
                 // The state is that instant's: it holds, shows the value, and goes no further.
                 flight.check().unwrap_or_else(|error| panic!("{error}"));
-                flight.evaluate().unwrap();
-                assert_eq!(find(name).unwrap().get(&flight), value);
-                let vehicle = flight.vehicle().unwrap();
-                let control = flight.sample().unwrap().control;
+                assert_eq!(shown(&mut flight, name), value);
+                let control = flight.evaluate().unwrap().control;
+                let vehicle = flight.vehicle();
                 assert!(vehicle.holds(flight.state(), &control, [0.0; GUSTS]));
                 let (state, time) = (*flight.state(), flight.time());
                 let again = flight.advance(time + 1e-3).unwrap_err();
@@ -94,12 +86,9 @@ fn verif_liquid_that_stays_within_its_depth_flies_on() {
 #[test]
 fn verif_a_fast_engine_is_not_too_far_from_choking() {
     // At Mach 10 the burner takes more than its air can burn: the margin has no upper limit.
-    let mut flight = Flight::new().unwrap();
-    for (name, value) in [("aero", 3.0), ("mach0", 10.5), ("altitude0", 28_000.0)] {
-        set(&mut flight, name, value);
-    }
-    flight.evaluate().unwrap_or_else(|error| panic!("{error}"));
-    assert!(find("choking_margin").unwrap().get(&flight) > 1.0);
+    let setup = setup(&[("aero", 3.0), ("mach0", 10.5), ("altitude0", 28_000.0)]);
+    let mut flight = setup.fly().unwrap_or_else(|error| panic!("{error}"));
+    assert!(shown(&mut flight, "choking_margin") > 1.0);
     flight.advance(0.1).unwrap_or_else(|error| panic!("{error}"));
 }
 
@@ -108,7 +97,7 @@ fn verif_a_state_beyond_the_depth_is_refused_also_from_outside() {
     for (tank, name) in NAMES.into_iter().enumerate() {
         let (mut flight, depth) = thrown(tank, 0.1, false);
         let mut state = *flight.state();
-        let slosh = flight.vehicle().unwrap().airframe.slosh[tank];
+        let slosh = flight.vehicle().airframe.slosh[tank];
         let mode = if slosh[3].abs() > slosh[4].abs() { 3 } else { 4 };
         state[5 + 2 * mode] += 1.01 * depth / slosh[mode];
         flight.set_state(&state);

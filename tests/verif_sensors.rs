@@ -8,13 +8,13 @@ mod model;
 use ahv::assembly::Chosen;
 use ahv::dynamics::{Gust, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
 use ahv::error::Error;
-use ahv::flight::Flight;
+use ahv::flight::Setup;
 use ahv::scalar::{Dual, Scalar};
 use ahv::trim::Condition;
-use ahv::variables::find;
 use ahv::vehicle::{Body, Build, Configuration};
 use explicit::extrapolation::extrapolated;
-use model::{CONFIGURATIONS, build, data, flight};
+use fmi_model::table::find;
+use model::{CONFIGURATIONS, build, data, flight, setup};
 
 const CONTROL: [f64; 2] = [0.1, 0.3];
 /// Vertical and horizontal, m/s.
@@ -252,18 +252,20 @@ fn verif_between_the_nodes_a_sensor_is_on_the_cubic_of_its_element() {
 
 #[test]
 fn verif_at_the_mass_centre_of_a_rigid_body_sensors_show_the_states() {
-    let mut flight = flight(Configuration::Rigid);
-    let centre = flight.vehicle().unwrap().airframe.mass_centre;
-    for name in ["imu_station", "probe_station"] {
-        find(name).unwrap().set(&mut flight, centre).unwrap();
-    }
-    find("q_offset").unwrap().set(&mut flight, 0.05).unwrap();
-    find("alpha_offset").unwrap().set(&mut flight, 0.01).unwrap();
+    let centre = flight(Configuration::Rigid).vehicle().airframe.mass_centre;
+    let mut flight = setup(&[
+        ("configuration", 1.0),
+        ("imu_station", centre),
+        ("probe_station", centre),
+        ("q_offset", 0.05),
+        ("alpha_offset", 0.01),
+    ])
+    .fly()
+    .unwrap();
     flight.set_input(0, 0.02);
-    flight.evaluate().unwrap();
-    let shown = |name: &str| find(name).unwrap().get(&flight);
-    let weight = shown("n_z") / flight.sample().unwrap().outputs.loads.normal;
-    let loads = flight.sample().unwrap().outputs.loads;
+    let loads = flight.evaluate().unwrap().outputs.loads;
+    let mut shown = |name: &str| model::shown(&mut flight, name);
+    let weight = shown("n_z") / loads.normal;
     let (sin, cos) = shown("alpha").sin_cos();
     let axial = loads.drag * cos - loads.lift * sin;
     // The thrust is along the axis: across it there is none of it, along it all of it.
@@ -284,21 +286,17 @@ fn verif_at_the_mass_centre_of_a_rigid_body_sensors_show_the_states() {
 fn verif_a_sensor_off_the_body_is_refused_by_name_value_and_range() {
     let length = data().vehicle.geometry.length_m.value;
     for name in ["imu_station", "probe_station"] {
-        let variable = find(name).unwrap();
+        let variable = find::<Setup>(name).unwrap();
         for (value, told) in [(-1e-9, "-1e-9"), (1e4, "10000"), (f64::NAN, "NaN")] {
-            let text = variable.set(&mut Flight::new().unwrap(), value).unwrap_err().to_string();
+            let text = variable.set(&mut setup(&[]), value).unwrap_err().to_string();
             assert!(text.contains(name) && text.contains(told), "{text}");
         }
-        let mut flight = Flight::new().unwrap();
-        variable.set(&mut flight, length + 1e-9).unwrap();
-        let error = flight.initialise().unwrap_err();
+        let error = setup(&[(name, length + 1e-9)]).fly().unwrap_err();
         let Error::Value { variable: told, value, expected } = &error else { panic!("{error}") };
         assert_eq!((told.as_str(), *value), (name, length + 1e-9));
         assert!(expected.contains(&format!("from 0 to {length} m")), "{expected}");
         for end in [0.0, length] {
-            let mut flight = Flight::new().unwrap();
-            variable.set(&mut flight, end).unwrap();
-            flight.initialise().unwrap();
+            setup(&[(name, end)]).fly().unwrap();
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use crate::workspace::{TEXT, read_text, root};
 use ahv::dynamics::FASTEST_GUST;
-use ahv::flight::Flight;
-use ahv::variables::{Kind, Role, TABLE, Variable, guid};
-use anyhow::{Result, anyhow};
+use ahv::flight::{Flight, Setup};
+use anyhow::Result;
+use fmi_model::{Kind, Model, Role, Variable, identity::guid};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
@@ -86,13 +86,15 @@ categories on (<code>fmi2SetDebugLogging</code>); what came out and what was exp
 /// The page, as valid XHTML; `machines` are those that it is packaged for. The same sources give the
 /// same bytes.
 pub fn html(machines: &[String]) -> Result<String> {
-    let mut flight = Flight::new()?;
+    let setup = Setup::new()?;
     let mut rows = String::new();
     // What a master sets while it flies comes first; references only ever grow.
-    let (inputs, others): (Vec<_>, Vec<_>) =
-        TABLE.iter().enumerate().partition(|(_, variable)| matches!(variable.role, Role::Input(_)));
+    let (inputs, others): (Vec<_>, Vec<_>) = Setup::VARIABLES
+        .iter()
+        .enumerate()
+        .partition(|(_, variable)| matches!(variable.role, Role::Input(_)));
     for (reference, variable) in inputs.into_iter().chain(others) {
-        variable_row(&mut rows, reference, variable, &flight)?;
+        variable_row(&mut rows, reference, variable, &setup)?;
     }
     let same = if machines.len() > 1 {
         " They compute the same bits, and a serialised state of one continues on the other."
@@ -100,10 +102,9 @@ pub fn html(machines: &[String]) -> Result<String> {
         ""
     };
     let machines = format!("<p>It runs on {}.{same}</p>", machines.join(" and on "));
-    flight.initialise()?;
-    let limits = limits(&flight)?;
+    let limits = limits(&setup.fly()?);
     let changes = changes()?;
-    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid());
+    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid::<Setup>());
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
@@ -147,15 +148,15 @@ fn changes() -> Result<String> {
     Ok(page)
 }
 
-fn limits(flight: &Flight) -> Result<String> {
-    let vehicle = flight.vehicle().ok_or_else(|| anyhow!("the flight is not initialised"))?;
+fn limits(flight: &Flight) -> String {
+    let vehicle = flight.vehicle();
     let envelope = &vehicle.aero.envelope;
     let between = |[min, max]: [f64; 2], factor: f64, unit: &str| {
         format!("{} to {}{unit}", plain(min * factor), plain(max * factor))
     };
     let degrees = 1f64.to_degrees();
     let [elevator, fuel] = vehicle.limits;
-    Ok(format!(
+    format!(
         "<p>The default curve fits hold for Mach {}, altitude {} and incidence {}. Leaving this \
          region ends a step early with fmi2Discard; time and state are those of the last valid \
          instant. Controls are cut to elevator {} and fuel ratio {}, gusts to {}: within a step an input \
@@ -171,34 +172,36 @@ fn limits(flight: &Flight) -> Result<String> {
         between([-elevator, elevator], degrees, " deg"),
         between([0.0, fuel], 1.0, ""),
         between([-FASTEST_GUST, FASTEST_GUST], 1.0, " m/s"),
-    ))
+    )
 }
 
 fn variable_row(
     text: &mut String,
     reference: usize,
-    variable: &Variable,
-    flight: &Flight,
+    variable: &Variable<Setup>,
+    setup: &Setup,
 ) -> Result<()> {
     let role = match variable.role {
         Role::Input(_) => "input",
-        Role::Output => "output",
+        Role::Output(_) => "output",
         Role::OutputState(_) => "output, state",
         Role::LocalState(_) => "state",
         Role::Derivative(_) => "derivative",
-        Role::Parameter => "parameter",
-        Role::Calculated => "calculated parameter",
+        Role::Parameter { .. } => "parameter",
+        Role::Calculated(_) => "calculated parameter",
     };
-    let value = variable.get(flight);
-    let (unit, value) = match variable.kind {
-        Kind::Real(unit) => (unit.name, plain(value)),
-        Kind::Boolean => ("", (value != 0.0).to_string()),
+    let unit = match variable.kind {
+        Kind::Real(unit) => unit.name,
+        Kind::Boolean | Kind::Enumeration(..) => "",
+    };
+    let start = variable.start(setup).map_or(String::new(), |value| match variable.kind {
+        Kind::Real(_) => plain(value),
+        Kind::Boolean => (value != 0.0).to_string(),
         Kind::Enumeration(_, items) => {
             let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);
-            ("", item.map_or(String::new(), |(name, ..)| name.to_string()))
+            item.map_or(String::new(), |(name, ..)| name.to_string())
         }
-    };
-    let start = if variable.settable() { value } else { String::new() };
+    });
     let range = match (variable.kind, variable.range) {
         (Kind::Enumeration(_, items), _) => {
             let items = items.iter().map(|(name, number, _)| format!("{number} {name}"));
@@ -219,12 +222,15 @@ fn variable_row(
 
 #[cfg(test)]
 mod tests {
+    use ahv::flight::Setup;
+    use fmi_model::Model;
+
     #[test]
     fn page_is_well_formed_and_names_every_variable() {
         let page = super::html(&["Linux".to_string()]).unwrap();
         let mut reader = quick_xml::Reader::from_str(&page);
         while !matches!(reader.read_event().unwrap(), quick_xml::events::Event::Eof) {}
-        for variable in &ahv::variables::TABLE {
+        for variable in Setup::VARIABLES {
             assert!(page.contains(&format!("<code>{}</code>", variable.name)), "{}", variable.name);
         }
     }

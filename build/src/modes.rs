@@ -2,7 +2,7 @@
 
 use crate::cli;
 use crate::table::{number, row, table};
-use crate::trim::{configuration, flight, model, ready};
+use crate::trim::{configuration, model, setup};
 use ahv::modes::{FLEXIBLE, Modes};
 use ahv::vehicle::{Build, Data, structure};
 use anyhow::Result;
@@ -40,18 +40,19 @@ pub fn ordinal(index: usize) -> &'static str {
 
 pub fn run(options: &cli::Modes) -> Result<()> {
     let cli::Modes { analyse: options, elements } = options;
-    let flight = flight(&model()?, &options.set)?;
-    let (vehicle, _) = ready(&flight)?;
+    let setup = setup(&model()?, &options.set)?;
+    let flight = setup.fly()?;
+    let vehicle = flight.vehicle();
     let count = vehicle.modes;
     let modes = match count {
         0 => Modes::default(),
         _ => {
-            let (beam, oscillators) = structure(&Data::embedded()?, &flight.parameters().build)?;
+            let (beam, oscillators) = structure(&Data::embedded()?, &setup.parameters.build)?;
             Modes::solve(&beam, &oscillators)?
         }
     };
     if *elements {
-        say!("{}", solved_elements(&flight.parameters().build)?)?;
+        say!("{}", solved_elements(&setup.parameters.build)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;
@@ -74,10 +75,10 @@ pub fn run(options: &cli::Modes) -> Result<()> {
                 })
             })
             .collect();
-        say!("{:#}", json!({ "configuration": configuration(&flight), "modes": list }))?;
+        say!("{:#}", json!({ "configuration": configuration(&setup), "modes": list }))?;
         return Ok(());
     }
-    say!("Modes, {}", configuration(&flight))?;
+    say!("Modes, {}", configuration(&setup))?;
     if count == 0 {
         say!("  none: the vehicle is rigid")?;
         return Ok(());

@@ -1,6 +1,5 @@
 //! Builds the libraries and puts the FMU together.
 
-mod archive;
 mod binary;
 mod cross_check;
 mod icon;
@@ -17,14 +16,17 @@ use crate::workspace::{BINARY, can_write, read, shown, target, write};
 use crate::{documentation, licenses, say};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
+use fmi_model::archive::zip;
 pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::env;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
+use zip::ZipArchive;
 
 /// For which platforms an FMU is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -117,10 +119,17 @@ pub fn fresh(targets: Targets) -> Result<PathBuf> {
 
 /// Whether there is an FMU that flies on Windows too.
 fn has_windows(file: &Path) -> bool {
-    archive::names(file).is_ok_and(|names| {
+    names(file).is_ok_and(|names| {
         let folder = format!("binaries/{}/", WINDOWS.name);
         names.iter().any(|name| name.starts_with(&folder))
     })
+}
+
+/// Names of the files in a zip.
+fn names(file: &Path) -> Result<Vec<String>> {
+    let mut zip = ZipArchive::new(Cursor::new(read(file, BINARY)?))?;
+    let all = 0..zip.len();
+    all.map(|index| Ok(zip.by_index_raw(index)?.name()?.into_owned())).collect()
 }
 
 /// Says what is missing for a Windows library.
@@ -224,7 +233,7 @@ fn contents(libraries: &[Library]) -> Result<Files> {
 fn reference(files: &Files, foreign: bool) -> Result<Files> {
     let directory = TempDir::with_prefix("fmu-")?;
     let file = directory.path().join("ahv.fmu");
-    write(&file, archive::zip(files)?)?;
+    write(&file, zip(files)?)?;
     if foreign {
         survives(&file)?;
     }
@@ -249,7 +258,7 @@ fn survives(file: &Path) -> Result<()> {
 
 /// Writes the FMU and says what it is.
 fn write_fmu(files: Files, output: &Path) -> Result<()> {
-    let bytes = archive::zip(&files)?;
+    let bytes = zip(&files)?;
     write(output, &bytes)?;
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();

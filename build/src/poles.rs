@@ -3,11 +3,12 @@
 use crate::cli::Poles;
 use crate::modes::ordinal;
 use crate::table::{NOISE, number, row, table};
-use crate::trim::{configuration, flight, model, ready};
+use crate::trim::{configuration, model, setup};
+use ahv::flight::Setup;
 use ahv::linear::Linear;
 use ahv::modes::FLEXIBLE;
-use ahv::variables::{Kind, find};
 use anyhow::Result;
+use fmi_model::{Kind, table::find};
 use nalgebra::Complex;
 use serde_json::{Value, json};
 use std::f64::consts::LN_2;
@@ -57,7 +58,7 @@ pub fn run(options: &Poles) -> Result<()> {
 }
 
 fn linearise_all(options: &Poles) -> Result<Vec<Linearised>> {
-    let items = match find("configuration").map(|variable| variable.kind) {
+    let items = match find::<Setup>("configuration").map(|variable| variable.kind) {
         Some(Kind::Enumeration(_, items)) => items,
         _ => &[],
     };
@@ -67,8 +68,9 @@ fn linearise_all(options: &Poles) -> Result<Vec<Linearised>> {
 fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     let mut set = crate::cli::Set { settings: options.analyse.set.settings.clone() };
     set.settings.extend(configured.map(|name| format!("configuration={name}")));
-    let flight = flight(&model()?, &set)?;
-    let (vehicle, trim) = ready(&flight)?;
+    let setup = setup(&model()?, &set)?;
+    let flight = setup.fly()?;
+    let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let linear =
         [Linear::new, Linear::sensed].map(|linear| linear(vehicle, &trim.state, &trim.control));
     let roots = |values: Vec<Complex<f64>>| -> Vec<Root> {
@@ -77,7 +79,7 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
         upper.map(|root| Root { re: root.re, im: root.im }).collect()
     };
     Ok(Linearised {
-        configuration: configuration(&flight),
+        configuration: configuration(&setup),
         poles: named(roots(linear[0].poles()), &vehicle.omega[..vehicle.modes]),
         zeros: linear.map(|linear| roots(linear.zeros())),
     })

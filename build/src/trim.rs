@@ -5,11 +5,10 @@ use crate::describe;
 use crate::model_description::ModelDescription;
 use crate::settings;
 use crate::table::{number, row, table};
-use ahv::dynamics::{RIGID, Vehicle};
-use ahv::flight::Flight;
-use ahv::trim::Trim;
-use ahv::variables;
+use ahv::dynamics::RIGID;
+use ahv::flight::{Flight, Setup};
 use anyhow::{Result, anyhow};
+use fmi_model::table::find;
 use serde_json::json;
 
 /// The model as a master sees it; `--set` is checked against it here as in `fly`.
@@ -17,32 +16,32 @@ pub fn model() -> Result<ModelDescription> {
     ModelDescription::parse(&describe::xml()?)
 }
 
-/// An initialised flight with the parameters of the command line.
+/// A flight with the parameters of the command line.
 pub fn flight(model: &ModelDescription, set: &Set) -> Result<Flight> {
-    let mut flight = Flight::new()?;
-    for setting in settings::parse(model, &set.settings)? {
-        let name = &setting.variable.name;
-        let variable = variables::find(name).ok_or_else(|| anyhow!("no variable {name}"))?;
-        variable.set(&mut flight, setting.value)?;
-    }
-    flight.evaluate()?;
-    Ok(flight)
+    Ok(setup(model, set)?.fly()?)
 }
 
-/// Vehicle and trim of an initialised flight.
-pub fn ready(flight: &Flight) -> Result<(&Vehicle, &Trim)> {
-    flight.vehicle().zip(flight.trim()).ok_or_else(|| anyhow!("the flight is not initialised"))
+/// The parameters of the command line.
+pub fn setup(model: &ModelDescription, set: &Set) -> Result<Setup> {
+    let mut setup = Setup::new()?;
+    for setting in settings::parse(model, &set.settings)? {
+        let name = &setting.variable.name;
+        let variable = find::<Setup>(name).ok_or_else(|| anyhow!("no variable {name}"))?;
+        variable.set(&mut setup, setting.value)?;
+    }
+    Ok(setup)
 }
 
 /// Name of the configuration that flies.
-pub fn configuration(flight: &Flight) -> String {
-    format!("{:?}", flight.parameters().build.configuration)
+pub fn configuration(setup: &Setup) -> String {
+    format!("{:?}", setup.parameters.build.configuration)
 }
 
 pub fn run(options: &Analyse) -> Result<()> {
     let model = model()?;
-    let flight = flight(&model, &options.set)?;
-    let (vehicle, trim) = ready(&flight)?;
+    let setup = setup(&model, &options.set)?;
+    let flight = setup.fly()?;
+    let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let loads = vehicle.loads(&trim.state, &trim.control);
     let (_, outputs) = vehicle.both(&trim.state, &trim.control, [0.0; 2]);
     let (gravity, _) = vehicle.atmosphere.gravity(trim.state[1]);
@@ -80,7 +79,7 @@ pub fn run(options: &Analyse) -> Result<()> {
                 (name.to_string(), json!({ "value": value, "unit": unit }))
             })
             .collect::<serde_json::Map<_, _>>();
-        let whole = json!({ "configuration": configuration(&flight), "trim": values });
+        let whole = json!({ "configuration": configuration(&setup), "trim": values });
         say!("{whole:#}")?;
         return Ok(());
     }
@@ -88,8 +87,8 @@ pub fn run(options: &Analyse) -> Result<()> {
     for (name, value, _, (unit, factor)) in rows {
         text.push(vec![name.to_string(), number(value * factor), unit.to_string()]);
     }
-    let kind = if flight.parameters().trim { "Trimmed flight" } else { "Start, not trimmed" };
-    say!("{kind}, {}; forces per metre of width", configuration(&flight))?;
+    let kind = if setup.parameters.trim { "Trimmed flight" } else { "Start, not trimmed" };
+    say!("{kind}, {}; forces per metre of width", configuration(&setup))?;
     put!("{}", table(&text))?;
     Ok(())
 }

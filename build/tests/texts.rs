@@ -2,9 +2,10 @@
 #![allow(clippy::disallowed_methods)]
 
 use ahv::dop853::DOP853;
-use ahv::flight::{Flight, INPUT_ORDER};
-use ahv::variables::{Kind, Role, TABLE, Variable};
+use ahv::flight::{INPUT_ORDER, Setup};
+use ahv::variables::TABLE;
 use ahv_tool::documentation;
+use fmi_model::{Kind, Role, Variable};
 use std::fs;
 use std::mem::discriminant;
 use std::path::Path;
@@ -25,7 +26,7 @@ fn reference(name: &str) -> usize {
 }
 
 /// The variables that a cell names; `a` ... `b` are those of their kind between them in the table.
-fn named(cell: &str) -> Vec<&'static Variable> {
+fn named(cell: &str) -> Vec<&'static Variable<Setup>> {
     let mut references: Vec<usize> = Vec::new();
     let words: Vec<_> = cell.split('`').collect();
     for pair in words.chunks(2) {
@@ -51,9 +52,9 @@ fn the_table_in_the_readme_names_what_can_be_set_and_read_and_nothing_else() {
         for variable in named(cells[1]) {
             let fits = match variable.role {
                 Role::Input(_) => cells[2].starts_with("input"),
-                Role::Output | Role::OutputState(_) => cells[2].starts_with("output"),
-                Role::Parameter => cells[2].starts_with("parameter"),
-                Role::Calculated => cells[2] == "calculated",
+                Role::Output(_) | Role::OutputState(_) => cells[2].starts_with("output"),
+                Role::Parameter { .. } => cells[2].starts_with("parameter"),
+                Role::Calculated(_) => cells[2] == "calculated",
                 Role::LocalState(_) | Role::Derivative(_) => false,
             };
             assert!(fits, "{} is no {}: {:?}", variable.name, cells[2], variable.role);
@@ -68,10 +69,10 @@ fn the_table_in_the_readme_names_what_can_be_set_and_read_and_nothing_else() {
             seen.push(variable.name);
         }
     }
-    let said = |variable: &&Variable| {
+    let said = |variable: &&Variable<Setup>| {
         matches!(
             variable.role,
-            Role::Input(_) | Role::Output | Role::OutputState(_) | Role::Parameter
+            Role::Input(_) | Role::Output(_) | Role::OutputState(_) | Role::Parameter { .. }
         )
     };
     for variable in TABLE.iter().filter(said) {
@@ -82,13 +83,23 @@ fn the_table_in_the_readme_names_what_can_be_set_and_read_and_nothing_else() {
 #[test]
 fn the_readme_states_the_limits_and_the_flight_of_the_code() {
     let readme = flat(&read("README.md"));
-    let mut flight = Flight::new().unwrap();
-    let start = |name: &str| TABLE[reference(name)].get(&flight);
+    let setup = Setup::new().unwrap();
+    let start = |name: &str| TABLE[reference(name)].start(&setup).unwrap();
     let level = format!("level at Mach {} and {:.1} km", start("mach0"), start("altitude0") / 1e3);
     let stations = "`imu_station` (55 ft) and `probe_station` (the nose)".to_string();
     assert!((start("imu_station") - 55.0 * 0.3048).abs() < 1e-6 && start("probe_station") == 0.0);
-    flight.initialise().unwrap();
-    let vehicle = flight.vehicle().unwrap();
+    let mut flight = setup.fly().unwrap();
+    let mut shown = |name: &str| TABLE[reference(name)].value(&setup, &mut flight).unwrap();
+    let trim = shown("delta_e_trim").to_degrees();
+    let mut hertz = |name: &str| shown(name) / std::f64::consts::TAU;
+    let rings = format!(
+        "ring at {:.1}, {:.1} and {:.0} Hz, the propellant sloshes at {:.1} Hz",
+        hertz("omega1"),
+        hertz("omega2"),
+        hertz("omega3"),
+        hertz("omega_slosh1")
+    );
+    let vehicle = flight.vehicle();
     let envelope = &vehicle.aero.envelope;
     let round =
         |[least, most]: [f64; 2], unit: f64| format!("{:.0} to {:.0}", least * unit, most * unit);
@@ -101,20 +112,10 @@ fn the_readme_states_the_limits_and_the_flight_of_the_code() {
     );
     let [elevator, fuel] = vehicle.limits;
     let saturation = format!("after saturation ({:.0} deg; 0 to {fuel})", elevator * degrees);
-    let trim = TABLE[reference("delta_e_trim")].get(&flight) * degrees;
     let left = format!(
         "The elevator trims at {trim:.1} of {:.0} deg: {:.1} deg are left downwards",
         elevator * degrees,
         elevator * degrees - trim
-    );
-    let omega = |name: &str| TABLE[reference(name)].get(&flight);
-    let hertz = |name: &str| omega(name) / std::f64::consts::TAU;
-    let rings = format!(
-        "ring at {:.1}, {:.1} and {:.0} Hz, the propellant sloshes at {:.1} Hz",
-        hertz("omega1"),
-        hertz("omega2"),
-        hertz("omega3"),
-        hertz("omega_slosh1")
     );
     let states =
         TABLE.iter().filter(|variable| matches!(variable.role, Role::Derivative(_))).count();

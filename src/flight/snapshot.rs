@@ -1,17 +1,13 @@
 //! What has to be remembered of a flight.
 
-use super::{Flight, Inputs};
-use crate::dynamics::State;
-use crate::error::Error;
+use super::{Flight, INPUT_ORDER, INPUTS, Inputs};
+use crate::dynamics::{STATES, State};
 use crate::integrate::Integrator;
-use crate::parameters::Parameters;
 
-/// All that a flight remembers: plain numbers, enough to restore it elsewhere bit for bit.
+/// All that a flight remembers besides its vehicle: plain numbers, enough to continue it bit for bit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Snapshot {
-    /// Parameters.
-    pub parameters: Parameters,
-    /// Inputs as they were set.
+    /// Inputs.
     pub inputs: Inputs,
     /// State.
     pub state: State,
@@ -19,44 +15,61 @@ pub struct Snapshot {
     pub time: f64,
     /// Tolerance and step proposal.
     pub integrator: Integrator,
-    /// Whether the initial state has been computed.
-    pub initialised: bool,
 }
 
 impl Flight {
     /// All that has to be remembered.
     pub fn snapshot(&self) -> Snapshot {
         Snapshot {
-            parameters: self.parameters,
             inputs: self.inputs,
             state: self.state,
             time: self.time,
             integrator: self.integrator,
-            initialised: self.ready.is_some(),
         }
     }
 
-    /// Becomes the flight that a snapshot was taken of, bit for bit. A vehicle with the same
-    /// parameters is kept: a master that repeats steps does this often.
-    ///
-    /// # Errors
-    /// Those of [`Flight::initialise`]; the flight is then as it was.
-    pub fn rewind(&mut self, snapshot: &Snapshot) -> Result<(), Error> {
-        let kept = snapshot.initialised && self.parameters == snapshot.parameters;
-        if !(kept && self.ready.is_some()) {
-            let mut flight = self.clone();
-            flight.change(|parameters| *parameters = snapshot.parameters);
-            if snapshot.initialised {
-                flight.initialise()?;
-            }
-            *self = flight;
-        }
+    /// Continues from a snapshot of a flight with the same parameters, bit for bit.
+    pub fn rewind(&mut self, snapshot: &Snapshot) {
         self.inputs = snapshot.inputs;
         self.state = snapshot.state;
         self.time = snapshot.time;
         self.integrator = snapshot.integrator;
         self.slope = None;
         self.sample = None;
-        Ok(())
+    }
+}
+
+impl Snapshot {
+    /// Time, tolerance, step proposal, whether the inputs' derivatives are for the next step; states;
+    /// inputs; their derivatives by order.
+    pub const NUMBERS: usize = 4 + STATES + INPUTS * (1 + INPUT_ORDER);
+
+    /// The numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let Self { inputs, state, time, integrator } = *self;
+        let ahead = if inputs.ahead { 1.0 } else { 0.0 };
+        [time, integrator.tolerance, integrator.proposal, ahead]
+            .into_iter()
+            .chain(state)
+            .chain(inputs.values)
+            .chain(inputs.derivatives.into_iter().flatten())
+    }
+
+    /// The snapshot with these numbers, as many as there have to be.
+    pub fn from_numbers(numbers: &[f64]) -> Option<Self> {
+        let ([time, tolerance, proposal, ahead], rest) = numbers.split_first_chunk()?;
+        let (state, rest) = rest.split_first_chunk()?;
+        let (values, rest) = rest.split_first_chunk()?;
+        let (derivatives, []) = rest.as_chunks() else { return None };
+        Some(Self {
+            inputs: Inputs {
+                values: *values,
+                derivatives: derivatives.try_into().ok()?,
+                ahead: *ahead != 0.0,
+            },
+            state: *state,
+            time: *time,
+            integrator: Integrator { tolerance: *tolerance, proposal: *proposal },
+        })
     }
 }

@@ -9,9 +9,9 @@ mod common;
 mod player;
 mod plays;
 
-use ahv::fmi::lifecycle::{CALLS, Call, Phase};
-use ahv::fmi::sys::Status;
 use common::{Api, Random};
+use fmi_model::v2::calls::{CALLS, Call, Phase};
+use fmi_model::v2::sys::Status;
 use player::{Player, RARELY};
 use plays::PLAYS;
 use std::collections::BTreeSet;

@@ -2,9 +2,11 @@
 
 use crate::common::{Api, Random, Slave};
 use ahv::dynamics::STATES;
-use ahv::fmi::lifecycle::Phase;
-use ahv::fmi::sys::{Component, FmuState, Status, ValueReference};
-use ahv::variables::{Kind, TABLE, Variable};
+use ahv::flight::Setup;
+use ahv::variables::TABLE;
+use fmi_model::v2::calls::Phase;
+use fmi_model::v2::sys::{Component, FmuState, Status, ValueReference};
+use fmi_model::{Kind, Variable};
 use std::fmt::Debug;
 use std::ptr::null_mut;
 
@@ -67,19 +69,19 @@ pub struct Player<'a> {
     pub unsound: bool,
 }
 
-pub fn real(variable: &Variable) -> bool {
+pub fn real(variable: &Variable<Setup>) -> bool {
     matches!(variable.kind, Kind::Real(_))
 }
 
-pub fn integer(variable: &Variable) -> bool {
+pub fn integer(variable: &Variable<Setup>) -> bool {
     matches!(variable.kind, Kind::Enumeration(..))
 }
 
-pub fn boolean(variable: &Variable) -> bool {
+pub fn boolean(variable: &Variable<Setup>) -> bool {
     matches!(variable.kind, Kind::Boolean)
 }
 
-type Kinds = fn(&Variable) -> bool;
+type Kinds = fn(&Variable<Setup>) -> bool;
 
 impl<'a> Player<'a> {
     pub fn new(api: &'a Api, exchange: bool) -> Self {

@@ -3,8 +3,8 @@
 use crate::common::Random;
 use crate::player::{Array, BLANK, BLANK_INTEGER, Player, Saved, boolean, integer, real};
 use ahv::dynamics::{NOMINAL, STATES};
-use ahv::fmi::lifecycle::Phase;
-use ahv::fmi::sys::{Boolean, EventInfo, FmiString, FmuState, Status, StatusKind};
+use fmi_model::v2::calls::Phase;
+use fmi_model::v2::sys::{Boolean, EventInfo, FmiString, FmuState, Status, StatusKind};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 

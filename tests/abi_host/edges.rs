@@ -5,8 +5,9 @@ use crate::common::{Api, configurations};
 use crate::flights::{choose, vehicles};
 use crate::host::Host;
 use crate::watch::Watch;
-use ahv::fmi::sys::{Status, Type};
-use ahv::variables::{Kind, Role, TABLE};
+use ahv::variables::TABLE;
+use fmi_model::v2::sys::{Status, Type};
+use fmi_model::{Kind, Role};
 
 /// Finite, and senseless.
 const ABSURD: [f64; 9] = [1e300, -1e300, f64::MAX, f64::MIN, 1e-300, 5e-324, -5e-324, 1e30, -1e18];
@@ -50,7 +51,7 @@ pub fn parameters(api: &Api, watch: &mut Watch) {
     ];
     let ends = TABLE
         .iter()
-        .filter(|variable| variable.role == Role::Parameter)
+        .filter(|variable| matches!(variable.role, Role::Parameter { .. }))
         .flat_map(|v| v.range.into_iter().flatten().map(|end| vec![(v.name, end)]));
     let settings: Vec<_> = together.iter().map(|list| list.to_vec()).chain(ends).collect();
     for configuration in configurations() {

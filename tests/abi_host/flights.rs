@@ -4,14 +4,16 @@ use crate::common::{Api, configurations};
 use crate::host::Host;
 use crate::watch::Watch;
 use ahv::dynamics::NOMINAL;
-use ahv::fmi::sys::{Status, Type};
-use ahv::variables::{Kind, find};
+use fmi_model::v2::sys::{Status, Type};
+use fmi_model::{Kind, table::find};
 
 /// Configuration, coefficient set, whether fuel burns.
 pub type Vehicle = (i32, i32, i32);
 
 pub fn vehicles() -> impl Iterator<Item = Vehicle> {
-    let Kind::Enumeration(_, sets) = find("aero").unwrap().kind else { unreachable!() };
+    let Kind::Enumeration(_, sets) = find::<ahv::flight::Setup>("aero").unwrap().kind else {
+        unreachable!()
+    };
     configurations().into_iter().flat_map(move |configuration| {
         sets.iter().flat_map(move |&(_, set, _)| [0, 1].map(|burn| (configuration, set, burn)))
     })

@@ -3,8 +3,10 @@
 use crate::common::{Api, Slave, reference};
 use crate::watch::Watch;
 use ahv::dynamics::{STATES, State};
-use ahv::fmi::sys::{EventInfo, FmuState, Status, StatusKind, Type};
-use ahv::variables::{Kind, Role, TABLE};
+use ahv::flight::Setup;
+use ahv::variables::TABLE;
+use fmi_model::v2::sys::{EventInfo, FmuState, Status, StatusKind, Type};
+use fmi_model::{Kind, Role};
 use std::ptr::{null, null_mut};
 
 /// An instance, and what its calls are watched with.
@@ -25,7 +27,7 @@ macro_rules! call {
 }
 
 /// Value references of the variables whose role fits.
-pub fn references(fits: impl Fn(Role) -> bool) -> Vec<u32> {
+pub fn references(fits: impl Fn(Role<Setup>) -> bool) -> Vec<u32> {
     (0..TABLE.len() as u32).filter(|&i| fits(TABLE[i as usize].role)).collect()
 }
 
@@ -102,7 +104,7 @@ impl<'a> Host<'a> {
     /// All derivatives by states and inputs, along a step of this size.
     pub fn directional_derivatives(&mut self, seed: f64) {
         let unknowns = references(|role| {
-            matches!(role, Role::Output | Role::OutputState(_) | Role::Derivative(_))
+            matches!(role, Role::Output(_) | Role::OutputState(_) | Role::Derivative(_))
         });
         let knowns = references(|role| {
             matches!(role, Role::OutputState(_) | Role::LocalState(_) | Role::Input(_))
@@ -121,7 +123,7 @@ impl<'a> Host<'a> {
     }
 
     pub fn output_rates(&mut self) {
-        let outputs = references(|role| matches!(role, Role::Output | Role::OutputState(_)));
+        let outputs = references(|role| matches!(role, Role::Output(_) | Role::OutputState(_)));
         let (orders, mut rates) = (vec![1; outputs.len()], vec![0.0; outputs.len()]);
         call!(self.get_output_derivatives "fmi2GetRealOutputDerivatives"
             (outputs.as_ptr(), outputs.len(), orders.as_ptr(), rates.as_mut_ptr()));

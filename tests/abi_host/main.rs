@@ -12,8 +12,8 @@ mod flights;
 mod host;
 mod watch;
 
-use ahv::fmi::sys::Type;
 use common::Api;
+use fmi_model::v2::sys::Type;
 use watch::Watch;
 
 /// Stack that a call may use, bytes.

@@ -1,6 +1,6 @@
 //! Watches calls: which floating-point exceptions they raise, and how deep they go into the stack.
 
-use ahv::fmi::lifecycle::CALLS;
+use fmi_model::v2::calls::CALLS;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::c_int;
 

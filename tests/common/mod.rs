@@ -2,7 +2,7 @@
 
 #![allow(unsafe_code, dead_code)]
 
-use ahv::fmi::sys::{self, FmiString, Status};
+use fmi_model::v2::sys::{self, FmiString, Status};
 use libloading::{Library, library_filename};
 use std::ffi::{CStr, c_void};
 use std::path::PathBuf;

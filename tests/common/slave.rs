@@ -1,8 +1,9 @@
 //! An instance with a recording logger.
 
 use super::{Api, Record, Sink, callbacks};
-use ahv::fmi::sys::{self, Status, StatusKind};
-use ahv::variables::{Kind, TABLE, guid};
+use ahv::variables::TABLE;
+use fmi_model::v2::sys::{self, Status, StatusKind};
+use fmi_model::{Kind, identity::guid};
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
 
@@ -42,7 +43,7 @@ impl<'a> Slave<'a> {
 
     pub fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
         let sink = Box::new(Sink::default());
-        let guid = CString::new(guid()).unwrap();
+        let guid = CString::new(guid::<ahv::flight::Setup>()).unwrap();
         let functions = callbacks(&sink);
         let c = unsafe {
             (api.instantiate)(

@@ -2,9 +2,9 @@
 #![allow(dead_code, missing_docs)]
 
 use ahv::dynamics::{NOMINAL, STATES, State, Vehicle};
-use ahv::flight::Flight;
-use ahv::parameters::Parameters;
+use ahv::flight::{Flight, Parameters, Setup};
 use ahv::vehicle::{AeroSet, Build, Configuration, Data};
+use fmi_model::table::find;
 
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
@@ -39,10 +39,31 @@ pub fn builds() -> impl Iterator<Item = Build> {
 
 /// A trimmed default flight.
 pub fn flight(configuration: Configuration) -> Flight {
-    let mut flight = Flight::new().expect("the embedded data are valid");
-    flight.change(|p| p.build.configuration = configuration);
-    flight.initialise().expect("the default flight has a trim");
-    flight
+    flight_with(|parameters| parameters.build.configuration = configuration)
+}
+
+/// A flight with other parameters than the default ones.
+pub fn flight_with(edit: impl FnOnce(&mut Parameters)) -> Flight {
+    let mut setup = Setup::new().expect("the embedded data are valid");
+    edit(&mut setup.parameters);
+    setup.fly().unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Default parameters, but for variables of the table.
+pub fn setup(settings: &[(&str, f64)]) -> Setup {
+    let mut setup = Setup::new().expect("the embedded data are valid");
+    for (name, value) in settings {
+        let variable = find::<Setup>(name).expect(name);
+        variable.set(&mut setup, *value).unwrap_or_else(|error| panic!("{error}"));
+    }
+    setup
+}
+
+/// What a variable of the table is in a flight; not of parameters.
+pub fn shown(flight: &mut Flight, name: &str) -> f64 {
+    let default = Setup::new().expect("the embedded data are valid");
+    let variable = find::<Setup>(name).expect(name);
+    variable.value(&default, flight).unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
 /// |a - b| relative to the larger of |b| and `floor`.

@@ -1,8 +1,8 @@
 //! What a library needs from the machine that loads it, and what it offers: read from the file.
 
 use super::platform::Platform;
-use ahv::fmi::sys::signatures;
 use anyhow::{Context, Result, bail};
+use fmi_model::v2::sys::signatures;
 use object::elf::FileHeader64;
 use object::read::elf::{FileHeader, SectionHeader};
 use object::read::{File, NameOrOrdinal};

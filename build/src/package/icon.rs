@@ -2,7 +2,7 @@
 
 use crate::figure::{COLOURS, FRAME};
 use crate::raster;
-use ahv::flight::Flight;
+use ahv::flight::Setup;
 use ahv::modes::Modes;
 use ahv::vehicle::{Data, structure};
 use anyhow::{Result, anyhow};
@@ -31,7 +31,7 @@ type Place = (f64, f64);
 
 /// The picture as a PNG.
 pub fn png() -> Result<Vec<u8>> {
-    let build = Flight::new()?.parameters().build;
+    let build = Setup::new()?.parameters.build;
     let data = Data::embedded()?;
     let (beam, oscillators) = structure(&data, &build)?;
     let modes = Modes::solve(&beam, &oscillators)?;

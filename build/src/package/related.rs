@@ -4,8 +4,8 @@
 use super::{Files, cross_check};
 use crate::fly::STEP;
 use crate::model_description::ModelDescription;
-use crate::xml::Xml;
 use anyhow::Result;
+use fmi_model::describe::Xml;
 
 const NAME: &str = "org.fmi-standard.fmi-ls-ref";
 /// Root of the FMU, seen from the directory of the standard.

@@ -5,8 +5,8 @@ mod regression;
 use crate::cli::Fit;
 use ahv::atmosphere::Atmosphere;
 use ahv::dynamics::Vehicle;
+use ahv::flight::Parameters;
 use ahv::modes::{FLEXIBLE, Modes};
-use ahv::parameters::Parameters;
 use ahv::params::{
     AeroData, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE, VehicleData,
 };

@@ -11,7 +11,7 @@ use ahv::flight::{DEFAULT_TOLERANCE, method};
 use ahv::integrate::{Arrival, Integrator, Method, System};
 use ahv::trim::Trim;
 use ahv_tool::table::{row, table};
-use ahv_tool::trim::{flight, model, ready};
+use ahv_tool::trim::{flight, model};
 use anyhow::Result;
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -146,7 +146,7 @@ fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
 /// Prints right-hand sides and error of each method for a range of tolerances.
 pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
-    let (vehicle, trim) = ready(&flight)?;
+    let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let mut exponential = method(vehicle, trim);
     say!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state")?;
     say!("over its nominal value plus its size\n")?;

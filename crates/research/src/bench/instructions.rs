@@ -7,7 +7,7 @@ use super::spread::Spread;
 use crate::cli::Probe;
 use crate::methods::Law;
 use ahv_tool::cli::Set;
-use ahv_tool::trim::{flight, model, ready};
+use ahv_tool::trim::{flight, model};
 use ahv_tool::workspace::works;
 use ahv_tool::workspace::{TEXT, read_text, target};
 use anyhow::{Context, Result, bail};
@@ -22,7 +22,7 @@ const STEPS: usize = 100;
 /// Does something many times, for callgrind to count.
 pub fn probe(probe: Probe, calls: usize) -> Result<()> {
     let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
-    let (vehicle, trim) = ready(&flight)?;
+    let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let (vehicle, trim) = (vehicle.clone(), *trim);
     let start = flight.snapshot();
     match probe {
@@ -34,7 +34,7 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
         }),
         Probe::Steps => {
             for _ in 0..calls / STEPS {
-                flight.rewind(&start)?;
+                flight.rewind(&start);
                 fly(&mut flight, STEPS, &Law::OPEN)?;
             }
         }

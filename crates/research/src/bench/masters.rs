@@ -11,13 +11,11 @@ use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// The library whose steps return at once.
+/// The FMU whose steps return at once.
 fn idle() -> Result<PathBuf> {
-    let directory = target().join("bench/idle");
     let mut command = cargo();
-    command.args(["build", "--quiet", "--release", "--package", "ahv-fmu", "--lib"]);
-    check(command.args(["--features", "idle", "--target-dir"]).arg(&directory))?;
-    Ok(directory.join("release/libahv.so"))
+    check(command.args(["run", "--quiet", "--release", "--package", "idle"]))?;
+    Ok(target().join("release/idle.fmu"))
 }
 
 /// The vehicle of the test oracle, packaged by PythonFMU.

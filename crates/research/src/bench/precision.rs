@@ -6,10 +6,8 @@ use super::spread::{Spread, seconds};
 use super::{crates, peers};
 use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
 use ahv::dynamics::State;
-use ahv::flight::{DEFAULT_TOLERANCE, Flight, method};
-use ahv_tool::cli::Set;
+use ahv::flight::{DEFAULT_TOLERANCE, Flight, Setup, method};
 use ahv_tool::python::python;
-use ahv_tool::trim::{flight, model, ready};
 use anyhow::Result;
 use serde::Serialize;
 
@@ -43,25 +41,26 @@ pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::e
 }
 
 /// Our flights at all tolerances, then those with other crates.
-fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Result<Vec<Point>> {
-    let (vehicle, trim) = ready(flight)?;
-    let (vehicle, trim) = (vehicle.clone(), *trim);
-    let problem = Problem::new(&vehicle, &trim, steps, law);
+fn flights(effort: &Effort, setup: &Setup, steps: usize, law: Law) -> Result<Vec<Point>> {
+    let default = setup.fly()?;
+    let (vehicle, trim) = (default.vehicle(), default.trim());
+    let problem = Problem::new(vehicle, trim, steps, law);
     let (exact, _) = problem.fly(&mut &RKF78, EXACT);
-    let initial = flight.snapshot();
     let mut points = Vec::new();
     for tolerance in TOLERANCES {
-        flight.set_experiment(0.0, tolerance.parse()?);
+        let mut flight = setup.start(0.0, tolerance.parse()?)?;
         let start = flight.snapshot();
-        let reached = fly(flight, steps, &law)?;
-        let mut again = || flight.rewind(&start).and_then(|()| fly(flight, steps, &law));
+        let reached = fly(&mut flight, steps, &law)?;
+        let mut again = || {
+            flight.rewind(&start);
+            fly(&mut flight, steps, &law)
+        };
         let seconds = seconds(effort, &mut again);
-        flight.rewind(&initial)?;
         points.push(Point {
             method: format!("{OURS}, steps of {} ms", 1e3 * FLIGHT_S / steps as f64),
             tolerance: tolerance.to_string(),
             seconds,
-            calls: problem.fly(&mut method(&vehicle, &trim), tolerance.parse()?).1,
+            calls: problem.fly(&mut method(vehicle, trim), tolerance.parse()?).1,
             error: error(&reached, &exact),
         });
     }
@@ -86,16 +85,17 @@ fn flights(effort: &Effort, flight: &mut Flight, steps: usize, law: Law) -> Resu
 }
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
-    let (vehicle, trim) = ready(&flight)?;
+    let setup = Setup::new()?;
+    let flight = setup.fly()?;
+    let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut &RKF78, EXACT).0;
     let closed = Law::closed(trim);
     report.versions.extend(crates::versions()?);
-    compare("closed loop, 1 s", &flights(effort, &mut flight, STEPS[0], closed)?, report);
-    let mut points = flights(effort, &mut flight, STEPS[0], Law::OPEN)?;
+    compare("closed loop, 1 s", &flights(effort, &setup, STEPS[0], closed)?, report);
+    let mut points = flights(effort, &setup, STEPS[0], Law::OPEN)?;
     compare("1 s", &points, report);
     // The others integrate anew where the elevator moves, as steps of a quarter do.
-    let mut rare = flights(effort, &mut flight, STEPS[1], Law::OPEN)?;
+    let mut rare = flights(effort, &setup, STEPS[1], Law::OPEN)?;
     // A peer that is not installed is left out; one that is and fails is an error.
     match peers::sundials() {
         Ok(program) => {

@@ -3,13 +3,13 @@
 use super::Effort;
 use super::report::Report;
 use super::spread::Spread;
-use ahv::flight::DEFAULT_TOLERANCE;
-use ahv::fmi::snapshot::FmuState;
+use ahv::flight::{DEFAULT_TOLERANCE, Setup};
 use ahv_tool::fmu::Fmu;
 use ahv_tool::master::Instance;
 use ahv_tool::package::{self, Targets};
 use ahv_tool::workspace::{DATA, read_text};
 use anyhow::{Context, Result};
+use fmi_model::state::FmuState;
 use std::path::Path;
 
 /// Resident memory of this process, kB.
@@ -24,7 +24,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
     let library = std::fs::metadata(&fmu.binary)?.len() as f64 / 1e6;
     report.line("library", Spread::exact(library), "MB", "aim 1");
-    let bytes = FmuState::encoded_len() as f64 / 1e3;
+    let bytes = FmuState::<Setup>::encoded_len()? as f64 / 1e3;
     report.line("saved state", Spread::exact(bytes), "kB", "aim 1");
 
     let before = resident()?;

@@ -39,7 +39,7 @@ impl Bodies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ahv::parameters::Parameters;
+    use ahv::flight::Parameters;
     use ahv::vehicle::Data;
 
     #[test]

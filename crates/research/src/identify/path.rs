@@ -6,7 +6,7 @@ use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin, hardly_moves};
 use ahv::assembly::Chosen;
 use ahv::dynamics::Vehicle;
-use ahv::parameters::Parameters;
+use ahv::flight::Parameters;
 use ahv::params::AeroData;
 use ahv::trim::{Trim, trim};
 use ahv::vehicle::{Build, Data};

@@ -143,8 +143,8 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ahv::flight::Parameters;
     use ahv::modes::Modes;
-    use ahv::parameters::Parameters;
     use ahv::vehicle::Configuration;
 
     #[test]

@@ -1,9 +1,9 @@
 //! The coefficient sets that a report is about.
 
-use ahv::flight::Flight;
-use ahv::variables::{Kind, find};
+use ahv::flight::Setup;
 use ahv::vehicle::AeroSet;
 use anyhow::{Result, bail};
+use fmi_model::{Kind, table::find};
 
 /// A coefficient set of eq. (4).
 #[derive(Debug, Clone, Copy)]
@@ -15,25 +15,25 @@ pub struct Set {
 }
 
 /// All sets that the FMU offers. Taken from its table of variables, so a new one appears here.
-fn all(flight: &Flight) -> Result<Vec<Set>> {
-    let Some(variable) = find("aero") else { bail!("the FMU has no parameter `aero`") };
+fn all(setup: &Setup) -> Result<Vec<Set>> {
+    let Some(variable) = find::<Setup>("aero") else { bail!("the FMU has no parameter `aero`") };
     let Kind::Enumeration(_, items) = variable.kind else { bail!("`aero` is no enumeration") };
     items
         .iter()
         .map(|&(name, value, description)| {
-            let mut flight = flight.clone();
-            variable.set(&mut flight, f64::from(value))?;
-            Ok(Set { name, description, aero: flight.parameters().build.aero })
+            let mut setup = setup.clone();
+            variable.set(&mut setup, f64::from(value))?;
+            Ok(Set { name, description, aero: setup.parameters.build.aero })
         })
         .collect()
 }
 
 /// The sets named; without a name that of the FMU.
 pub fn chosen(names: &[String]) -> Result<Vec<Set>> {
-    let flight = Flight::new()?;
-    let sets = all(&flight)?;
+    let setup = Setup::new()?;
+    let sets = all(&setup)?;
     if names.is_empty() {
-        let default = flight.parameters().build.aero;
+        let default = setup.parameters.build.aero;
         return Ok(sets.into_iter().filter(|set| set.aero == default).collect());
     }
     if names.iter().any(|name| name == "all") {

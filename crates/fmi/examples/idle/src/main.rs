@@ -1,0 +1,5 @@
+//! Writes the FMU.
+
+fn main() -> std::process::ExitCode {
+    fmi_model::package::main::<idle::Idle>()
+}

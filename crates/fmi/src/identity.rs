@@ -1,0 +1,86 @@
+//! The identity of a model.
+
+use crate::model::{About, Model};
+use crate::table::{Kind, Role, Variable};
+
+/// Of the 128-bit hash of Fowler, Noll and Vo.
+const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;
+const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+
+/// 128-bit FNV-1a (Fowler, Noll, Vo), continued from `hash`.
+pub const fn fnv(mut hash: u128, bytes: &[u8]) -> u128 {
+    let mut i = 0;
+    while i < bytes.len() {
+        hash = (hash ^ bytes[i] as u128).wrapping_mul(PRIME);
+        i += 1;
+    }
+    hash
+}
+
+const fn fnv_text(hash: u128, text: &str) -> u128 {
+    fnv(hash, text.as_bytes())
+}
+
+const fn fnv_bits(hash: u128, bits: u64) -> u128 {
+    fnv(hash, &bits.to_le_bytes())
+}
+
+const fn fnv_kind(mut hash: u128, kind: &Kind) -> u128 {
+    match kind {
+        Kind::Real(unit) => fnv_text(hash, unit.name),
+        Kind::Boolean => fnv_text(hash, "Boolean"),
+        Kind::Enumeration(name, items) => {
+            hash = fnv_text(hash, name);
+            let mut i = 0;
+            while i < items.len() {
+                hash = fnv_text(fnv_bits(hash, items[i].1 as u64), items[i].0);
+                i += 1;
+            }
+            hash
+        }
+    }
+}
+
+/// Causality and variability as a number; a state, a derivative and an input also count their place.
+const fn role<M: Model>(role: &Role<M>) -> u64 {
+    match role {
+        Role::Input(i) => *i as u64,
+        Role::Output(_) => 100,
+        Role::OutputState(i) => 200 + *i as u64,
+        Role::LocalState(i) => 300 + *i as u64,
+        Role::Derivative(i) => 400 + *i as u64,
+        Role::Parameter { .. } => 500,
+        Role::Calculated(_) => 600,
+    }
+}
+
+/// Hash of identifier, version and table.
+pub const fn hash_of_table<M: Model>(about: &About, table: &[Variable<M>]) -> u128 {
+    let mut hash = fnv_text(fnv_text(BASIS, about.identifier), about.version);
+    let mut row = 0;
+    while row < table.len() {
+        let variable = &table[row];
+        hash = fnv_text(hash, variable.name);
+        hash = fnv_text(hash, variable.description);
+        hash = fnv_kind(hash, &variable.kind);
+        hash = fnv_bits(hash, role(&variable.role));
+        let claims = variable.dependencies;
+        hash = fnv_bits(hash, claims.dependent);
+        hash = fnv_bits(hash, claims.fixed);
+        hash = fnv_bits(hash, claims.constant);
+        if let Some([min, max]) = variable.range {
+            hash = fnv_bits(fnv_bits(hash, min.to_bits()), max.to_bits());
+        }
+        if let Some(nominal) = variable.nominal {
+            hash = fnv_bits(hash, nominal.to_bits());
+        }
+        row += 1;
+    }
+    hash
+}
+
+/// The FMU's GUID: [`Model::IDENTITY`] in braces, grouped as usual.
+pub fn guid<M: Model>() -> String {
+    let hex = format!("{:032x}", M::IDENTITY);
+    format!("{{{}-{}-{}-{}-{}}}", &hex[..8], &hex[8..12], &hex[12..16], &hex[16..20], &hex[20..])
+}

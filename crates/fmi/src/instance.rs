@@ -1,0 +1,331 @@
+//! One instance: its parameters, its simulation, its steps and its status.
+
+use crate::clock::same_instant;
+use crate::failure::{Failure, Outcome};
+use crate::log::Log;
+use crate::model::{Model, ModelError, Remedy, Simulation};
+use crate::pending::Pending;
+use crate::short::short;
+use crate::v2::calls::Phase;
+use crate::v2::sys::{Status, StatusKind};
+
+/// Largest step (s), rate of an input or change that is taken: what is made of it does not overflow.
+pub const LARGEST: f64 = 1e30;
+
+/// What `fmi2SetupExperiment` said.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Experiment {
+    /// Start time, s.
+    pub start: f64,
+    /// Stop time (s), infinite if there is none.
+    pub stop: f64,
+    /// Relative tolerance that the simulation works with.
+    pub tolerance: f64,
+}
+
+/// What an instance remembers besides parameters and simulation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Life {
+    /// State in the standard's table.
+    pub phase: Phase,
+    /// What `fmi2SetupExperiment` said, once it was called.
+    pub experiment: Option<Experiment>,
+    /// Whether a step ended early and the simulation should end.
+    pub ended: bool,
+}
+
+impl Life {
+    const NEW: Self = Self { phase: Phase::Instantiated, experiment: None, ended: false };
+}
+
+/// What a master uses an instance for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interface {
+    /// The master integrates.
+    ModelExchange,
+    /// The instance integrates.
+    CoSimulation,
+}
+
+/// An instance of the FMU.
+#[derive(Debug)]
+pub struct Instance<M: Model> {
+    pub(crate) interface: Interface,
+    /// As it was when instantiated: what a reset goes back to.
+    pub(crate) pristine: M,
+    pub(crate) model: M,
+    /// Inputs that were set before the simulation started.
+    pub(crate) pending: Pending,
+    pub(crate) simulation: Option<M::Simulation>,
+    pub(crate) life: Life,
+    logging_on: bool,
+    /// Messages for the master.
+    pub log: Log,
+}
+
+impl<M: Model> Instance<M> {
+    /// A new instance.
+    ///
+    /// # Errors
+    /// Those of [`Model::new`]; [`Failure::NotProvided`] of a model that does not know the interface.
+    pub fn new(interface: Interface, logging_on: bool) -> Result<Self, Failure> {
+        if interface == Interface::ModelExchange && M::Simulation::EXCHANGE.is_none() {
+            return Err(Failure::NotProvided { capability: "nothing of ModelExchange" });
+        }
+        let pristine = M::new()?;
+        Ok(Self {
+            interface,
+            model: pristine.clone(),
+            pristine,
+            pending: Pending::new::<M>(),
+            simulation: None,
+            life: Life::NEW,
+            logging_on,
+            log: Log::new(logging_on),
+        })
+    }
+
+    /// Whether the master integrates, and is at it.
+    pub(crate) fn exchanging(&self) -> bool {
+        matches!(self.life.phase, Phase::EventMode | Phase::ContinuousTimeMode)
+    }
+
+    /// Whether parameters can still be set.
+    pub(crate) fn before_start(&self) -> bool {
+        matches!(self.life.phase, Phase::Instantiated | Phase::InitializationMode)
+    }
+
+    /// State in the standard's table.
+    pub fn phase(&self) -> Phase {
+        self.life.phase
+    }
+
+    /// Makes the instance unusable.
+    pub fn ruin(&mut self) {
+        self.life.phase = Phase::Fatal;
+    }
+
+    /// Present time, s.
+    pub fn time(&self) -> f64 {
+        match (&self.simulation, &self.life.experiment) {
+            (Some(simulation), _) => simulation.time(),
+            (None, Some(experiment)) => experiment.start,
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The simulation; it starts here if it has not started yet, or if a parameter changed since.
+    pub(crate) fn running(&mut self) -> Result<&mut M::Simulation, Failure> {
+        Ok(self.with_model()?.1)
+    }
+
+    /// Parameters and simulation.
+    pub(crate) fn with_model(&mut self) -> Result<(&M, &mut M::Simulation), Failure> {
+        let simulation = match &mut self.simulation {
+            Some(simulation) => simulation,
+            slot @ None => {
+                let mut simulation = start(&self.model, self.life.experiment)?;
+                self.pending.hand_over(&mut simulation);
+                slot.insert(simulation)
+            }
+        };
+        Ok((&self.model, simulation))
+    }
+
+    /// `fmi2SetDebugLogging`.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownCategory`].
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[String]) -> Outcome {
+        self.log.switch(on, categories)
+    }
+
+    /// `fmi2SetupExperiment`; undefined arguments are `None`.
+    ///
+    /// # Errors
+    /// [`Failure::Argument`].
+    pub fn setup_experiment(
+        &mut self,
+        tolerance: Option<f64>,
+        start: f64,
+        stop: Option<f64>,
+    ) -> Outcome {
+        let refuse = |argument, value, expected: &str| {
+            Err(Failure::Argument { argument, value, expected: expected.to_string() })
+        };
+        if let Some(value) = tolerance
+            && !(value > 0.0 && value.is_finite())
+        {
+            return refuse("tolerance", value, "a positive number is needed");
+        }
+        if !start.is_finite() {
+            return refuse("startTime", start, "a finite number is needed");
+        }
+        let stop = stop.unwrap_or(f64::INFINITY);
+        if stop.is_nan() || stop < start {
+            return refuse("stopTime", stop, "it must not lie before the start time");
+        }
+        let [least, largest] = M::TOLERANCES;
+        let tolerance = tolerance.unwrap_or(M::DEFAULT_TOLERANCE).clamp(least, largest);
+        self.life.experiment = Some(Experiment { start, stop, tolerance });
+        self.simulation = None;
+        self.log.push(Status::Ok, || {
+            let start = short(start);
+            format!("fmi2SetupExperiment: start at {start} s, relative tolerance {tolerance:e}")
+        });
+        Ok(())
+    }
+
+    /// `fmi2EnterInitializationMode`.
+    ///
+    /// # Errors
+    /// [`Failure::NoExperiment`].
+    pub fn enter_initialization_mode(&mut self) -> Outcome {
+        self.life.experiment.ok_or(Failure::NoExperiment)?;
+        self.life.phase = Phase::InitializationMode;
+        Ok(())
+    }
+
+    /// `fmi2ExitInitializationMode`: finds the initial state.
+    ///
+    /// # Errors
+    /// Those of [`Model::start`]; the state is then error.
+    pub fn exit_initialization_mode(&mut self) -> Outcome {
+        let started = self.running().and_then(|simulation| {
+            simulation.evaluate()?;
+            Ok(())
+        });
+        if let Err(failure) = started {
+            self.life.phase = Phase::Error;
+            return Err(failure.without_remedy());
+        }
+        self.life.phase = match self.interface {
+            Interface::ModelExchange => Phase::EventMode,
+            Interface::CoSimulation => Phase::StepComplete,
+        };
+        const CALL: &str = "fmi2ExitInitializationMode";
+        if self.log.wants(Status::Ok)
+            && let Some(simulation) = &self.simulation
+        {
+            self.model.started(&self.pristine, simulation, &mut |text| self.log.say(CALL, &text));
+        }
+        self.advise(CALL);
+        Ok(())
+    }
+
+    /// Says what works but is probably not meant.
+    pub(crate) fn advise(&mut self, call: &str) {
+        if self.log.wants(Status::Ok)
+            && let Some(simulation) = &mut self.simulation
+        {
+            simulation.advise(&mut |text| self.log.say(call, &text));
+        }
+    }
+
+    /// `fmi2Terminate`: nothing is left to do, values can still be read.
+    ///
+    /// # Errors
+    /// None.
+    pub fn terminate(&mut self) -> Outcome {
+        self.life.phase = Phase::Terminated;
+        Ok(())
+    }
+
+    /// `fmi2Reset`: as just instantiated, with the logging of then.
+    ///
+    /// # Errors
+    /// None.
+    pub fn reset(&mut self) -> Outcome {
+        self.model = self.pristine.clone();
+        self.pending = Pending::new::<M>();
+        self.simulation = None;
+        self.life = Life::NEW;
+        self.log.switch(false, &[])?;
+        self.log.switch(self.logging_on, &[])
+    }
+
+    /// `fmi2DoStep`. Rounding in `point` is accepted; the step then starts at the instance's own
+    /// time, and ends exactly at `point + step`: the clock follows the master's, and what one point was
+    /// rounded by is not in the next.
+    ///
+    /// # Errors
+    /// [`Failure::Argument`], [`Failure::CommunicationPoint`] and [`Failure::PastStop`] change
+    /// nothing. After [`Failure::Model`] with the status discard, time and state are those of the last
+    /// valid instant.
+    pub fn do_step(&mut self, point: f64, step: f64) -> Outcome {
+        let time = self.time();
+        if !(step > 0.0 && step <= LARGEST) {
+            return Err(Failure::Argument {
+                argument: "communicationStepSize",
+                value: step,
+                expected: format!("a positive number up to {LARGEST:e} is needed"),
+            });
+        }
+        let end = point + step;
+        if !(point.is_finite() && same_instant(point, time, step)) || end < time {
+            return Err(Failure::CommunicationPoint { asked: point, step, time });
+        }
+        if let Some(Experiment { stop, .. }) = self.life.experiment
+            && end > stop
+            && !same_instant(end, stop, step)
+        {
+            return Err(Failure::PastStop { end, stop });
+        }
+        // A step below the resolution of time ends where it starts.
+        if end == time {
+            return Ok(());
+        }
+        let Err(error) = self.running()?.advance(end) else {
+            self.advise("fmi2DoStep");
+            return Ok(());
+        };
+        (self.life.phase, self.life.ended) = match error.remedy() {
+            Remedy::End => (Phase::StepFailed, true),
+            Remedy::ShorterStep => (Phase::StepFailed, false),
+            Remedy::Reset => (Phase::Error, self.life.ended),
+        };
+        Err(error.into())
+    }
+
+    /// `fmi2CancelStep`: never legal, as no step is ever pending.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`].
+    pub fn cancel_step(&mut self) -> Outcome {
+        Err(Failure::NotProvided { capability: "canRunAsynchronuously = false" })
+    }
+
+    /// `fmi2GetRealStatus`: the end of the last step, or the instant at which it ended early.
+    ///
+    /// # Errors
+    /// [`Failure::NoStatus`].
+    pub fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
+        if kind == StatusKind::LAST_SUCCESSFUL_TIME {
+            return Ok(self.time());
+        }
+        Err(Failure::NoStatus { kind, asked: "fmi2Real" })
+    }
+
+    /// `fmi2GetBooleanStatus`: whether the simulation should end.
+    ///
+    /// # Errors
+    /// [`Failure::NoStatus`].
+    pub fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
+        if kind == StatusKind::TERMINATED {
+            return Ok(self.life.ended);
+        }
+        Err(Failure::NoStatus { kind, asked: "fmi2Boolean" })
+    }
+}
+
+/// A simulation of the model in an experiment, with inputs at zero.
+pub(crate) fn start<M: Model>(
+    model: &M,
+    experiment: Option<Experiment>,
+) -> Result<M::Simulation, Failure> {
+    let (start, tolerance) = match experiment {
+        Some(experiment) => (experiment.start, experiment.tolerance),
+        None => (0.0, M::DEFAULT_TOLERANCE),
+    };
+    Ok(model.start(start, tolerance)?)
+}

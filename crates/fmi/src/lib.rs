@@ -1,0 +1,46 @@
+//! Turns a Rust model into an FMU: a library that any simulation master loads through FMI 2.0, for
+//! Co-Simulation and, if the model can be integrated from outside, for Model Exchange.
+//!
+//! | module | its job |
+//! |---|---|
+//! | [`model`] | the traits that a model implements |
+//! | [`table`] | the one table of variables: value reference = row |
+//! | [`identity`] | GUID and key of saved states |
+//! | [`instance`] | one instance: set-up, steps, status |
+//! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
+//! | [`state`] | the FMU state and its bytes |
+//! | [`failure`], [`log`] | what a call is refused for; messages for the master's logger |
+//! | [`guard`] | legal order, panics and failures become a status and a message |
+//! | [`v2`] | FMI 2.0.5: C types, legal order of calls as data, exported functions |
+//!
+//! Steps are synchronous: `fmi2DoStep` never returns `fmi2Pending`, so there is nothing to cancel
+//! and the callback `stepFinished`, which reports the end of a pending step, is not called.
+
+#![deny(unsafe_code)]
+
+#[cfg(feature = "package")]
+pub mod archive;
+mod clock;
+pub mod derivatives;
+#[cfg(feature = "describe")]
+pub mod describe;
+pub mod exchange;
+pub mod failure;
+pub mod guard;
+pub mod identity;
+pub mod instance;
+pub mod log;
+pub mod model;
+#[cfg(feature = "package")]
+pub mod package;
+mod pending;
+mod short;
+pub mod state;
+pub mod table;
+pub mod v2;
+pub mod values;
+
+pub use model::{
+    About, Exchange, InputDerivatives, Model, ModelError, Remedy, Saving, Simulation, Tangent,
+};
+pub use table::{Dependencies, Kind, Role, Unit, Variable};

@@ -1,0 +1,98 @@
+//! An FMU around a library that Cargo built.
+//!
+//! A package with a `cdylib` and a program that calls [`main`] is all that an FMU needs: `cargo run
+//! --release` builds both and writes the FMU beside them.
+
+use crate::archive::zip;
+use crate::describe::model_description;
+use crate::model::Model;
+use std::collections::BTreeMap;
+use std::env::{self, consts};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What kept an FMU from being written.
+#[derive(Debug, thiserror::Error)]
+pub enum PackageError {
+    /// The model has no defaults.
+    #[error("the model cannot be described: {0}")]
+    Model(#[from] crate::failure::Failure),
+    /// FMI has no name for this machine.
+    #[error("FMI has no name for a platform like {os} on {arch}")]
+    Platform {
+        /// System, as Rust calls it.
+        os: &'static str,
+        /// Processor, as Rust calls it.
+        arch: &'static str,
+    },
+    /// A file cannot be read or written.
+    #[error("{}: {error}", file.display())]
+    File {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The zip file cannot be made.
+    #[error("the FMU cannot be packed: {0}")]
+    Zip(#[from] zip::result::ZipError),
+}
+
+/// The folder below `binaries` for a system and a processor, by Rust's names of them. FMI 2.0 has names
+/// for x86-64 only; for other processors those of FMI 3.0 stand in.
+pub fn platform(os: &str, arch: &str) -> Option<&'static str> {
+    Some(match (os, arch) {
+        ("linux", "x86_64") => "linux64",
+        ("windows", "x86_64") => "win64",
+        ("macos", "x86_64") => "darwin64",
+        ("linux", "aarch64") => "aarch64-linux",
+        ("windows", "aarch64") => "aarch64-windows",
+        ("macos", "aarch64") => "aarch64-darwin",
+        _ => return None,
+    })
+}
+
+/// Packs a model's description and its library for this machine; the same inputs give the same bytes.
+///
+/// # Errors
+/// [`PackageError`]; a file that is there is replaced only by a whole one.
+pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageError> {
+    let (os, arch) = (consts::OS, consts::ARCH);
+    let platform = platform(os, arch).ok_or(PackageError::Platform { os, arch })?;
+    let failed = |file: &Path| {
+        let file = file.to_path_buf();
+        |error| PackageError::File { file, error }
+    };
+    let content = fs::read(library).map_err(failed(library))?;
+    let name = format!("binaries/{platform}/{}{}", M::ABOUT.identifier, consts::DLL_SUFFIX);
+    let description = model_description::<M>()?.into_bytes();
+    let files =
+        BTreeMap::from([("modelDescription.xml".to_string(), description), (name, content)]);
+    let beside = output.with_extension("fmu.part");
+    fs::write(&beside, zip(&files)?).map_err(failed(&beside))?;
+    fs::rename(&beside, output).map_err(failed(output))
+}
+
+/// The program that writes `<identifier>.fmu` beside itself, where Cargo also puts the library.
+pub fn main<M: Model>() -> ExitCode {
+    let identifier = M::ABOUT.identifier;
+    let written = env::current_exe()
+        .map_err(|error| PackageError::File { file: "this program".into(), error })
+        .and_then(|program| {
+            let library = format!("{}{identifier}{}", consts::DLL_PREFIX, consts::DLL_SUFFIX);
+            let output = program.with_file_name(format!("{identifier}.fmu"));
+            package::<M>(&program.with_file_name(library), &output)?;
+            Ok(output)
+        });
+    match written {
+        Ok(output) => {
+            println!("{}", output.display());
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! FMI 2.0.5: types, legal order of calls, exported functions.
+
+pub mod abi;
+pub mod calls;
+mod export;
+pub mod sys;

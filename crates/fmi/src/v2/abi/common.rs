@@ -1,0 +1,153 @@
+//! Functions that co-simulation and model exchange have in common (section 2.1).
+
+use super::entry::{Component, deliver, enter, input, string};
+use crate::failure::Failure;
+use crate::guard::guarded;
+use crate::identity::guid;
+use crate::instance::{Instance, Interface};
+use crate::log::Message;
+use crate::model::Model;
+use crate::v2::calls;
+use crate::v2::sys::{self, FmiString, Real, Status};
+use core::ffi::{CStr, c_char};
+use core::ptr;
+use std::ffi::CString;
+
+pub unsafe fn fmi2GetTypesPlatform<M: Model>() -> *const c_char {
+    c"default".as_ptr()
+}
+
+pub unsafe fn fmi2GetVersion<M: Model>() -> *const c_char {
+    c"2.0".as_ptr()
+}
+
+/// Refuses what does not fit, else makes an instance. Any resource location will do, as nothing is
+/// read from there.
+fn instantiate<M: Model>(
+    name: Result<String, Failure>,
+    kind: sys::Type,
+    given: Result<String, Failure>,
+    logging_on: bool,
+) -> Result<Instance<M>, String> {
+    if name.map_err(|failure| failure.to_string())?.trim().is_empty() {
+        return Err("the instance name must not be empty".to_string());
+    }
+    let interface = match kind {
+        sys::Type::MODEL_EXCHANGE => Interface::ModelExchange,
+        sys::Type::CO_SIMULATION => Interface::CoSimulation,
+        sys::Type(other) => return Err(format!("fmuType = {other} does not exist")),
+    };
+    let (given, own) = (given.map_err(|failure| failure.to_string())?, guid::<M>());
+    if given != own {
+        return Err(format!(
+            "fmuGUID is {given}, but this binary has {own}: model description and binary are not \
+             from the same FMU"
+        ));
+    }
+    Instance::new(interface, logging_on).map_err(|failure| failure.to_string())
+}
+
+pub unsafe fn fmi2Instantiate<M: Model>(
+    instanceName: FmiString,
+    fmuType: sys::Type,
+    fmuGUID: FmiString,
+    _fmuResourceLocation: FmiString,
+    functions: *const sys::CallbackFunctions,
+    _visible: sys::Boolean,
+    loggingOn: sys::Boolean,
+) -> sys::Component {
+    if functions.is_null() {
+        return ptr::null_mut();
+    }
+    // SAFETY: not NULL, and the master's struct is valid during this call.
+    let callbacks = unsafe { functions.read() };
+    let made = guarded(
+        || {
+            // SAFETY: the master passes NULL or C strings.
+            let (name, given) =
+                unsafe { (string("instanceName", instanceName), string("fmuGUID", fmuGUID)) };
+            instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
+        },
+        |panic| Err(format!("internal error: {panic}")),
+    );
+    let name = if instanceName.is_null() {
+        CString::default()
+    } else {
+        // SAFETY: not NULL, hence a C string.
+        unsafe { CStr::from_ptr(instanceName) }.to_owned()
+    };
+    match made {
+        // The allocator is Rust's, not allocateMemory of the callbacks: the model description says
+        // canNotUseMemoryManagementFunctions = true, and section 2.1.5 discourages the latter.
+        Ok(instance) => Box::into_raw(Box::new(Component { instance, name, callbacks })).cast(),
+        Err(text) => {
+            let message = Message::new(Status::Error, &format!("fmi2Instantiate: {text}"));
+            // SAFETY: the logger is the master's, the name is a live C string.
+            unsafe { deliver(&callbacks, name.as_ptr(), &message) };
+            ptr::null_mut()
+        }
+    }
+}
+
+pub unsafe fn fmi2FreeInstance<M: Model>(c: sys::Component) {
+    if !c.is_null() {
+        // SAFETY: the master passes what fmi2Instantiate made, once.
+        let component = unsafe { Box::from_raw(c.cast::<Component<M>>()) };
+        guarded(|| drop(component), |_| ());
+    }
+}
+
+pub unsafe fn fmi2SetDebugLogging<M: Model>(
+    c: sys::Component,
+    loggingOn: sys::Boolean,
+    nCategories: usize,
+    categories: *const FmiString,
+) -> Status {
+    let body = |instance: &mut Instance<M>| {
+        // SAFETY: the master passes nCategories C strings.
+        let names: Result<Vec<_>, _> = unsafe { input("categories", categories, nCategories) }?
+            .iter()
+            .map(|&name| unsafe { string("categories", name) })
+            .collect();
+        instance.set_debug_logging(loggingOn != sys::FALSE, &names?)
+    };
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::SET_DEBUG_LOGGING, body) }
+}
+
+pub unsafe fn fmi2SetupExperiment<M: Model>(
+    c: sys::Component,
+    toleranceDefined: sys::Boolean,
+    tolerance: Real,
+    startTime: Real,
+    stopTimeDefined: sys::Boolean,
+    stopTime: Real,
+) -> Status {
+    let body = |instance: &mut Instance<M>| {
+        let tolerance = (toleranceDefined != sys::FALSE).then_some(tolerance);
+        let stop = (stopTimeDefined != sys::FALSE).then_some(stopTime);
+        instance.setup_experiment(tolerance, startTime, stop)
+    };
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::SETUP_EXPERIMENT, body) }
+}
+
+pub unsafe fn fmi2EnterInitializationMode<M: Model>(c: sys::Component) -> Status {
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::ENTER_INITIALIZATION_MODE, Instance::<M>::enter_initialization_mode) }
+}
+
+pub unsafe fn fmi2ExitInitializationMode<M: Model>(c: sys::Component) -> Status {
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::EXIT_INITIALIZATION_MODE, Instance::<M>::exit_initialization_mode) }
+}
+
+pub unsafe fn fmi2Terminate<M: Model>(c: sys::Component) -> Status {
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::TERMINATE, Instance::<M>::terminate) }
+}
+
+pub unsafe fn fmi2Reset<M: Model>(c: sys::Component) -> Status {
+    // SAFETY: the master passes one of its instances.
+    unsafe { enter(c, &calls::RESET, Instance::<M>::reset) }
+}

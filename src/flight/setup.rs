@@ -1,0 +1,200 @@
+//! Before a flight: the parameters, and the flight that starts from them.
+
+use super::{DEFAULT_TOLERANCE, FIRST_STEP, Flight, InputMode, Inputs, Offsets, Parameters};
+use crate::decoupling::Decoupling;
+use crate::dynamics::{CONTROLS, FUEL, GUSTS, NOMINAL, RIGID, STATES, State, Vehicle};
+use crate::envelope::Limited;
+use crate::error::Error;
+use crate::exponential::Exponential;
+use crate::integrate::Integrator;
+use crate::linear::Linear;
+use crate::modes::{FLEXIBLE, MODES, SLOSH};
+use crate::trim::{self, Trim};
+use crate::vehicle::{Build, Data};
+use std::sync::Arc;
+
+/// What a flight starts from.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    data: Arc<Data>,
+    /// Parameters.
+    pub parameters: Parameters,
+}
+
+/// The data are the same in every setup of a library.
+impl PartialEq for Setup {
+    fn eq(&self, other: &Self) -> bool {
+        self.parameters == other.parameters
+    }
+}
+
+impl Setup {
+    /// Default parameters.
+    ///
+    /// # Errors
+    /// [`Error::Data`] if the data are not those of a vehicle.
+    pub fn new() -> Result<Self, Error> {
+        let data = Arc::new(Data::embedded()?);
+        Ok(Self { parameters: Parameters::new(&data), data })
+    }
+
+    /// A flight from time zero, with the default tolerance.
+    ///
+    /// # Errors
+    /// Those of [`Setup::start`].
+    pub fn fly(&self) -> Result<Flight, Error> {
+        self.start(0.0, DEFAULT_TOLERANCE)
+    }
+
+    /// Builds the vehicle and finds the initial state: a flight from `time` (s), with a relative
+    /// tolerance of its integration and inputs at zero.
+    ///
+    /// # Errors
+    /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
+    /// region where the curve fits hold.
+    pub fn start(&self, time: f64, tolerance: f64) -> Result<Flight, Error> {
+        let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
+            self.parameters;
+        let vehicle = built(&self.data, &build)?;
+        let steady = if trimmed {
+            trim::trim(&vehicle, &build.condition)?
+        } else {
+            let mut state = build.condition.start(&vehicle.atmosphere);
+            state[FUEL] = vehicle.fuel;
+            state[3] = alpha0;
+            state[4] = q0;
+            for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
+                state[RIGID + 2 * i] = eta;
+            }
+            Trim { state, control: [0.0; 2] }
+        };
+        let mut state = steady.state;
+        disturb(&vehicle, &mut state, &offsets);
+        if !vehicle.holds(&state, &steady.control, [0.0; GUSTS]) {
+            return Err(start_outside(&vehicle, &state, &steady, &self.parameters));
+        }
+        let deviation = trimmed && input_mode == InputMode::DeviationFromTrim;
+        let about = match trimmed {
+            true => steady,
+            // Of the condition, so that a start from it flies as one with trim does.
+            false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
+        };
+        Ok(Flight {
+            base: if deviation { steady.control } else { [0.0; 2] },
+            method: boxed(&vehicle, &about),
+            vehicle,
+            trim: steady,
+            inputs: Inputs::ZERO,
+            time,
+            integrator: Integrator::new(tolerance, FIRST_STEP),
+            state,
+            slope: None,
+            sample: None,
+            limit_said: [false; CONTROLS],
+        })
+    }
+}
+
+/// A vehicle, in a frame of its own: putting it together takes several times its room.
+#[inline(never)]
+fn built(data: &Data, build: &Build) -> Result<Box<Vehicle>, Error> {
+    Ok(Box::new(Vehicle::new(data, build)?))
+}
+
+/// Incidence, pitch rate and modes: the states that move fast.
+const FAST: usize = 2 + 2 * MODES;
+/// Those before them.
+const SLOW: usize = RIGID - 2;
+
+/// What integrates a flight.
+pub type Method = Exponential<STATES, SLOW, FAST>;
+
+/// The method for a vehicle, likewise.
+#[inline(never)]
+fn boxed(vehicle: &Vehicle, steady: &Trim) -> Box<Method> {
+    Box::new(method(vehicle, steady))
+}
+
+/// The method for a vehicle, its fast motion decoupled about steady flight.
+pub fn method(vehicle: &Vehicle, steady: &Trim) -> Method {
+    let jacobian = Linear::new(vehicle, &steady.state, &steady.control).a;
+    Exponential::new(Decoupling::new(&jacobian, &NOMINAL))
+}
+
+/// Adds the offsets. Those of the sloshing masses are of their displacements: the slosh modes take what
+/// the flexible ones leave.
+fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
+    state[3] += offsets.alpha;
+    state[4] += offsets.q;
+    let slosh = &vehicle.airframe.slosh;
+    for (first, offset) in [(RIGID, &offsets.displacement), (RIGID + 1, &offsets.rate)] {
+        let mut modes = [0.0; MODES];
+        modes[..FLEXIBLE].copy_from_slice(&offset[..FLEXIBLE]);
+        let left: [f64; SLOSH] = std::array::from_fn(|tank| {
+            let flexible = slosh[tank].iter().zip(&modes);
+            offset[FLEXIBLE + tank] - flexible.map(|(per, eta)| per * eta).sum::<f64>()
+        });
+        if vehicle.modes == MODES && left != [0.0; SLOSH] {
+            let [a, b] = [0, 1].map(|tank| [slosh[tank][FLEXIBLE], slosh[tank][FLEXIBLE + 1]]);
+            let determinant = a[0] * b[1] - a[1] * b[0];
+            modes[FLEXIBLE] = (left[0] * b[1] - a[1] * left[1]) / determinant;
+            modes[FLEXIBLE + 1] = (a[0] * left[1] - left[0] * b[0]) / determinant;
+        }
+        for (i, eta) in modes.into_iter().enumerate().take(vehicle.modes) {
+            state[first + 2 * i] += eta;
+        }
+    }
+}
+
+/// A start where the model does not hold, by the names of the parameters that lead there.
+fn start_outside(
+    vehicle: &Vehicle,
+    start: &State,
+    steady: &Trim,
+    parameters: &Parameters,
+) -> Error {
+    let still = [0.0; GUSTS];
+    let Limited { variable, value, limits: [min, max] } =
+        vehicle.tightest(start, &steady.control, still);
+    let (offsets, build) = (&parameters.offsets, &parameters.build);
+    // The flexible mode that moves the liquid of a tank most.
+    let bent = |tank: usize| {
+        let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
+        (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
+    };
+    let sloshing = |tank: usize| {
+        let (name, offset) = [("slosh1_offset", 0), ("slosh2_offset", 1)]
+            .map(|(name, tank)| (name, offsets.displacement[FLEXIBLE + tank]))[tank];
+        match bent(tank).filter(|_| !parameters.trim) {
+            _ if offset != 0.0 => (name, offset),
+            Some(i) => (["eta10", "eta20", "eta30"][i], parameters.eta0[i]),
+            None if build.slosh_frequency > 0.0 => ("slosh_frequency", build.slosh_frequency),
+            None => ("fuel_fraction", build.fuel_fraction),
+        }
+    };
+    let (name, given) = match variable {
+        "h" => ("altitude0", value),
+        "mach" => ("mach0", build.condition.mach),
+        "alpha" if parameters.trim || offsets.alpha != 0.0 => ("alpha_offset", offsets.alpha),
+        "alpha" => ("alpha0", value),
+        "slosh1" => sloshing(0),
+        "slosh2" => sloshing(1),
+        // The burner chokes: for the incidence, or for the fuel that the trim takes.
+        _ if offsets.alpha != 0.0 && vehicle.holds(&steady.state, &steady.control, still) => {
+            ("alpha_offset", offsets.alpha)
+        }
+        _ if parameters.trim => ("phi_trim", steady.control[1]),
+        _ => ("alpha0", parameters.alpha0),
+    };
+    let remedy = match name {
+        "phi_trim" => "; the burner chokes: choose another mach0, altitude0 or thrust_factor",
+        _ => "",
+    };
+    let limit = match max {
+        f64::INFINITY => format!("from {min:.6} up"),
+        _ => format!("in [{min:.6}, {max:.6}]"),
+    };
+    let expected =
+        format!("it makes {variable} {value:.6} at the start; the model holds {limit}{remedy}");
+    Error::Value { variable: name.into(), value: given, expected }
+}
