@@ -9,10 +9,10 @@ mod words;
 pub use hash::{MODEL_HASH, guid};
 pub use table::TABLE;
 
-use crate::dynamics::{NOMINAL, STATES};
 use crate::error::Error;
 use crate::flight::{Flight, INPUTS};
 use crate::short::short;
+use crate::vehicle::{NOMINAL, STATES};
 
 /// A unit with the exponents of its base units and, where users think in another one, how to show
 /// it.

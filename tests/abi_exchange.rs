@@ -4,8 +4,8 @@
 
 mod common;
 
-use ahv::dynamics::{NOMINAL, STATES, State};
 use ahv::fmi::sys::{EventInfo, Status};
+use ahv::vehicle::{NOMINAL, STATES, State};
 use common::{Api, Slave, reference};
 
 /// A flexible, sloshing vehicle.
@@ -171,7 +171,7 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
 
 /// Value references of the states, in their order.
 fn state_references() -> [u32; STATES] {
-    ahv::dynamics::STATE_NAMES.map(reference)
+    ahv::vehicle::STATE_NAMES.map(reference)
 }
 
 #[test]

@@ -4,9 +4,9 @@
 
 mod common;
 
-use ahv::dynamics::{STATES, State};
 use ahv::fmi::lifecycle::{CALLS, PHASES, Phase};
 use ahv::fmi::sys::{EventInfo, Status, StatusKind};
+use ahv::vehicle::{STATES, State};
 use common::{Api, Slave, configurations, reference};
 use std::ptr::{null, null_mut};
 

@@ -3,11 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::CONTROLS;
-use ahv::dynamics::{NOMINAL, STATES};
+use ahv::data::AeroSet;
 use ahv::flight::{Flight, INPUTS, Snapshot};
 use ahv::variables::{Role, TABLE, Variable};
-use ahv::vehicle::{AeroSet, Configuration};
+use ahv::vehicle::{CONTROLS, Configuration, NOMINAL, STATES};
 use model::{AERO_SETS, CONFIGURATIONS};
 
 /// Perturbation over the nominal value: large enough to show in every digit, small enough to stay

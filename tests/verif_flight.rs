@@ -3,12 +3,12 @@
 
 mod model;
 
-use ahv::dynamics::{CONTROLS, NOMINAL, STATES, State, Vehicle};
+use ahv::data::AeroSet;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::trim;
 use ahv::error::Error;
-use ahv::linear::Linear;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::{Condition, trim};
-use ahv::vehicle::{AeroSet, Configuration};
+use ahv::solve::{Dual, Scalar};
+use ahv::vehicle::{CONTROLS, Condition, Configuration, NOMINAL, STATES, State, Vehicle};
 use model::{AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, vehicle, vehicle_with};
 use proptest::prelude::*;
 

@@ -3,11 +3,9 @@
 
 mod model;
 
-use ahv::dynamics::{NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv::flight::Flight;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::Condition;
-use ahv::vehicle::Configuration;
+use ahv::solve::{Dual, Scalar};
+use ahv::vehicle::{Condition, Configuration, NOMINAL, RIGID, STATES, State, Vehicle};
 use model::{builds, data, deviation, flight, vehicle};
 
 /// Forces turned from one pair of axes into another, over g: a few roundings.

@@ -3,10 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::{GUSTS, STATES};
 use ahv::error::Error;
 use ahv::flight::Flight;
 use ahv::variables::find;
+use ahv::vehicle::{GUSTS, STATES};
 use model::data;
 
 const NAMES: [&str; 2] = ["slosh1", "slosh2"];

@@ -3,11 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::RIGID;
 use ahv::error::Error;
 use ahv::flight::Flight;
 use ahv::variables::find;
-use ahv::vehicle::Configuration;
+use ahv::vehicle::{Configuration, RIGID};
 use model::{AERO_SETS, CONFIGURATIONS, data};
 
 /// Of sums over five modes.

@@ -1,9 +1,9 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
 use crate::workspace::{TEXT, read_text, root};
-use ahv::dynamics::FASTEST_GUST;
 use ahv::flight::Flight;
 use ahv::variables::{Kind, Role, TABLE, Variable, guid};
+use ahv::vehicle::FASTEST_GUST;
 use anyhow::{Result, anyhow};
 use quick_xml::escape::escape;
 use std::fmt::Write;

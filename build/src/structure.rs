@@ -1,8 +1,8 @@
 //! Writes the ModelStructure: what depends on what.
 
 use crate::xml::Xml;
-use ahv::dynamics::STATES;
 use ahv::variables::{self, Dependencies, Role, TABLE, Variable};
+use ahv::vehicle::STATES;
 use std::io;
 
 /// Index of a row in the ModelStructure, which counts from one.

@@ -5,10 +5,10 @@ use crate::describe;
 use crate::model_description::ModelDescription;
 use crate::settings;
 use crate::table::{number, row, table};
-use ahv::dynamics::{RIGID, Vehicle};
+use ahv::dynamics::trim::Trim;
 use ahv::flight::Flight;
-use ahv::trim::Trim;
 use ahv::variables;
+use ahv::vehicle::{RIGID, Vehicle};
 use anyhow::{Result, anyhow};
 use serde_json::json;
 

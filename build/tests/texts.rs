@@ -1,8 +1,8 @@
 //! What the pages state and the code decides: variables, limits, methods.
 #![allow(clippy::disallowed_methods)]
 
-use ahv::dop853::DOP853;
 use ahv::flight::{Flight, INPUT_ORDER};
+use ahv::solve::DOP853;
 use ahv::variables::{Kind, Role, TABLE, Variable};
 use ahv_tool::documentation;
 use std::fs;

@@ -1,11 +1,11 @@
 //! Why a flight ends.
 
-use super::Inputs;
+use super::inputs::Inputs;
 use super::ready::Ready;
 use super::steered::in_effect;
-use crate::dynamics::{FUEL, State};
-use crate::envelope::Limited;
+use crate::air::Limited;
 use crate::error::Error;
+use crate::vehicle::{FUEL, State};
 
 /// First look beyond the last valid instant, s, and how often it is doubled: to a second.
 const LOOK: f64 = 1e-9;

@@ -1,15 +1,15 @@
 //! What the parameters alone decide: vehicle, trim, and what the inputs are added to.
 
-use crate::decoupling::Decoupling;
-use crate::dynamics::{Control, FUEL, GUSTS, NOMINAL, RIGID, STATES, State, Vehicle};
-use crate::envelope::Limited;
+use crate::air::Limited;
+use crate::data::Data;
+use crate::dynamics::linear::Linear;
+use crate::dynamics::trim;
+use crate::dynamics::trim::Trim;
 use crate::error::Error;
-use crate::exponential::Exponential;
-use crate::linear::Linear;
-use crate::modes::{FLEXIBLE, MODES, SLOSH};
 use crate::parameters::{InputMode, Offsets, Parameters};
-use crate::trim::{self, Trim};
-use crate::vehicle::{Build, Data};
+use crate::solve::{Decoupling, Exponential};
+use crate::structure::{FLEXIBLE, MODES, SLOSH};
+use crate::vehicle::{Build, Control, FUEL, GUSTS, NOMINAL, RIGID, STATES, State, Vehicle};
 
 /// An initialised flight's vehicle.
 #[derive(Debug, Clone)]

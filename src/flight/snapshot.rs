@@ -1,10 +1,11 @@
 //! What has to be remembered of a flight.
 
-use super::{Flight, Inputs};
-use crate::dynamics::State;
+use super::Flight;
+use super::inputs::Inputs;
 use crate::error::Error;
-use crate::integrate::Integrator;
 use crate::parameters::Parameters;
+use crate::solve::Integrator;
+use crate::vehicle::State;
 
 /// All that a flight remembers: plain numbers, enough to restore it elsewhere bit for bit.
 #[derive(Debug, Clone, Copy, PartialEq)]

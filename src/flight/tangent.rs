@@ -1,9 +1,10 @@
 //! Derivatives of everything that a flight shows, exact by dual numbers.
 
-use super::{Flight, INPUTS, Inputs, Sample};
-use crate::dynamics::{Gust, State};
+use super::inputs::{INPUTS, Inputs};
+use super::{Flight, Sample};
 use crate::error::Error;
-use crate::scalar::Dual;
+use crate::solve::Dual;
+use crate::vehicle::{Gust, State};
 
 impl Flight {
     /// The change of everything that is shown, for a change of the state and of the inputs: a flight

@@ -1,13 +1,13 @@
 //! What works and is probably not meant: said in the log, and nowhere else.
 
-use crate::dynamics;
 use crate::fmi::instance::Instance;
 use crate::fmi::sys::Status;
 use crate::short::short;
 use crate::variables;
+use crate::vehicle;
 
 /// The controls' names, their unit, and what may have been mistaken.
-const CONTROLS: [(&str, &str, &str); dynamics::CONTROLS] =
+const CONTROLS: [(&str, &str, &str); vehicle::CONTROLS] =
     [("delta_e", " rad", "; inputs are in rad, not in degrees"), ("phi", "", "")];
 
 impl Instance {

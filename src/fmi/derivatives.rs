@@ -1,11 +1,11 @@
 //! Derivatives: of everything by states and inputs, of inputs within a step, of outputs by time.
 
-use crate::dynamics::{STATES, State};
 use crate::flight::{INPUT_ORDER, INPUTS};
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::{Instance, LARGEST};
 use crate::fmi::values::{REAL, variable};
 use crate::variables::{Role, Variable};
+use crate::vehicle::{STATES, State};
 
 /// Highest derivative of an output: `maxOutputDerivativeOrder`.
 pub const OUTPUT_ORDER: usize = 1;

@@ -3,12 +3,12 @@
 //! There are no events: saturation depends on inputs alone and leaves the rates continuous, so no
 //! indicator could tell an integrator anything about its states.
 
-use crate::dynamics::{NOMINAL, STATE_NAMES, STATES, State};
 use crate::error::Error;
 use crate::fmi::failure::{Failure, Outcome};
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::Phase;
 use crate::fmi::sys::Status;
+use crate::vehicle::{NOMINAL, STATE_NAMES, STATES, State};
 
 /// Number of event indicators.
 pub const EVENT_INDICATORS: usize = 0;

@@ -1,6 +1,5 @@
 //! One instance: its experiment, its steps and its status.
 
-use crate::dynamics::CONTROLS;
 use crate::error::Error;
 use crate::flight::{DEFAULT_TOLERANCE, Flight};
 use crate::fmi::clock::same_instant;
@@ -10,6 +9,7 @@ use crate::fmi::log::Log;
 use crate::fmi::snapshot::FmuState;
 use crate::fmi::sys::{Status, StatusKind};
 use crate::short::short;
+use crate::vehicle::CONTROLS;
 
 /// Tolerances that the integrator is given: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing. A master's wish is moved into this

@@ -15,12 +15,12 @@
 //! | 8 each | inputs and parameters by row |
 //! | 8 | FNV-1a of all before |
 
-use crate::dynamics::STATES;
 use crate::flight::{Flight, INPUT_ORDER, INPUTS, Snapshot};
 use crate::fmi::failure::Failure;
 use crate::fmi::instance::{LARGEST, Life, TOLERANCES};
 use crate::fmi::lifecycle::{PHASES, Phase};
 use crate::variables::{MODEL_HASH, Role, TABLE, Variable};
+use crate::vehicle::STATES;
 
 const MAGIC: [u8; 8] = *b"AHVSTATE";
 const VERSION: u32 = 4;

@@ -1,7 +1,7 @@
 //! The identity of the model.
 
 use super::{Kind, Role, TABLE};
-use crate::params::{EARTH, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, XU2015};
+use crate::data::{EARTH, OWN, PARKER2007, SHOCK_EXPANSION, VEHICLE, XU2015};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;

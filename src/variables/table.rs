@@ -2,10 +2,10 @@
 
 use super::words::*;
 use super::{Dependencies, Kind, Variable};
-use crate::dynamics::{FASTEST_GUST, RIGID};
+use crate::data::AeroSet;
 use crate::flight::{Flight, Sample};
 use crate::parameters::InputMode;
-use crate::vehicle::{AeroSet, Configuration};
+use crate::vehicle::{Configuration, FASTEST_GUST, RIGID};
 
 fn shown(flight: &Flight, read: impl FnOnce(&Sample) -> f64) -> f64 {
     flight.sample().map_or(0.0, read)

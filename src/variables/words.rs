@@ -1,9 +1,9 @@
 //! The words in which the rows of the table are said: units, dependencies, constructors, enumerations.
 
 use super::{Dependencies, Kind, Role, Unit, Variable};
-use crate::dynamics::STATES;
+use crate::data::OWN;
 use crate::flight::Flight;
-use crate::params::OWN;
+use crate::vehicle::STATES;
 
 pub(super) const fn unit(name: &'static str, base: [i32; 4]) -> Unit {
     Unit { name, base, display: None }

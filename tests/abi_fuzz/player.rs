@@ -1,10 +1,10 @@
 //! The master that plays: its instance, what it knows of it, and the arguments it passes.
 
 use crate::common::{Api, Random, Slave};
-use ahv::dynamics::STATES;
 use ahv::fmi::lifecycle::Phase;
 use ahv::fmi::sys::{Component, FmuState, Status, ValueReference};
 use ahv::variables::{Kind, TABLE, Variable};
+use ahv::vehicle::STATES;
 use std::fmt::Debug;
 use std::ptr::null_mut;
 

@@ -2,9 +2,9 @@
 
 use crate::common::Random;
 use crate::player::{Array, BLANK, BLANK_INTEGER, Player, Saved, boolean, integer, real};
-use ahv::dynamics::{NOMINAL, STATES};
 use ahv::fmi::lifecycle::Phase;
 use ahv::fmi::sys::{Boolean, EventInfo, FmiString, FmuState, Status, StatusKind};
+use ahv::vehicle::{NOMINAL, STATES};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 

@@ -3,9 +3,9 @@
 use crate::common::{Api, configurations};
 use crate::host::Host;
 use crate::watch::Watch;
-use ahv::dynamics::NOMINAL;
 use ahv::fmi::sys::{Status, Type};
 use ahv::variables::{Kind, find};
+use ahv::vehicle::NOMINAL;
 
 /// Configuration, coefficient set, whether fuel burns.
 pub type Vehicle = (i32, i32, i32);

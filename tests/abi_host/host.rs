@@ -2,9 +2,9 @@
 
 use crate::common::{Api, Slave, reference};
 use crate::watch::Watch;
-use ahv::dynamics::{STATES, State};
 use ahv::fmi::sys::{EventInfo, FmuState, Status, StatusKind, Type};
 use ahv::variables::{Kind, Role, TABLE};
+use ahv::vehicle::{STATES, State};
 use std::ptr::{null, null_mut};
 
 /// An instance, and what its calls are watched with.

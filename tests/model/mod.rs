@@ -1,10 +1,10 @@
 //! Shared by the integration tests.
 #![allow(dead_code, missing_docs)]
 
-use ahv::dynamics::{NOMINAL, STATES, State, Vehicle};
+use ahv::data::{AeroSet, Data};
 use ahv::flight::Flight;
 use ahv::parameters::Parameters;
-use ahv::vehicle::{AeroSet, Build, Configuration, Data};
+use ahv::vehicle::{Build, Configuration, NOMINAL, STATES, State, Vehicle};
 
 pub const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];

@@ -1,11 +1,11 @@
 //! Functions for model exchange only (section 3.2).
 
 use super::entry::{enter, input, output, room, store};
-use crate::dynamics::State;
 use crate::fmi::failure::Failure;
 use crate::fmi::instance::Instance;
 use crate::fmi::lifecycle::{self as calls, Call};
 use crate::fmi::sys::{self, Boolean, Component, EventInfo, Real, Status};
+use crate::vehicle::State;
 
 #[unsafe(no_mangle)]
 pub(super) unsafe extern "C" fn fmi2EnterEventMode(c: Component) -> Status {

@@ -1,8 +1,8 @@
 //! The coefficient sets that a report is about.
 
+use ahv::data::AeroSet;
 use ahv::flight::Flight;
 use ahv::variables::{Kind, find};
-use ahv::vehicle::AeroSet;
 use anyhow::{Result, bail};
 
 /// A coefficient set of eq. (4).
