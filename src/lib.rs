@@ -1,7 +1,7 @@
 //! Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and
 //! sloshing propellant, as a Rust library and as an FMI 2.0 FMU for co-simulation and model exchange.
 //!
-//! The rooms, from the bottom up; each imports from those above it in this table alone, and within a room
+//! The rooms, lowest first: each imports only from those before it in this table, and within a room
 //! no files import each other in a circle:
 //!
 //! | room | what it holds | where it comes from |
