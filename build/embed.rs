@@ -3,12 +3,15 @@
 //! `AHV_VEHICLE` names a file that takes the place of `vehicle.toml`, `AHV_COEFFICIENTS` one that
 //! becomes the coefficient set `own`; the options of `cargo ahv` with these names set them.
 
-#[path = "../src/params/files.rs"]
+#[path = "../src/data/files.rs"]
 #[allow(dead_code)]
 mod files;
-#[path = "../src/params/quantities.rs"]
-mod quantities;
-#[path = "../src/params/shape.rs"]
+#[path = "../src/data/quantity.rs"]
+#[allow(dead_code)]
+mod quantity;
+#[path = "../src/data/ranges.rs"]
+mod ranges;
+#[path = "../src/data/shape.rs"]
 #[allow(dead_code)]
 mod shape;
 #[path = "../src/short.rs"]
@@ -53,7 +56,7 @@ fn embed<T: Serialize + DeserializeOwned>(name: &str, file: &Path) {
     println!("cargo::rerun-if-changed={}", file.display());
     let text = fs::read_to_string(file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     let table = text.parse().unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-    if let Some((key, problem)) = quantities::wrong(&table) {
+    if let Some((key, problem)) = ranges::wrong(&table) {
         panic!("{}: {key}: {problem}", file.display());
     }
     let data: T = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));

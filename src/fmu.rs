@@ -2,11 +2,11 @@
 
 mod ignored;
 
+use crate::data::{DATA_FILES, OWN_FILES};
 use crate::error::Error;
 use crate::flight::{
     BeyondLimit, DEFAULT_TOLERANCE, Flight, INPUT_ORDER, Sample, Setup, Snapshot, TOLERANCES,
 };
-use crate::params::{DATA_FILES, OWN_FILES};
 use crate::short::short;
 use crate::variables::TABLE;
 use fmi_model::identity::{fnv, hash_of_table};
@@ -159,7 +159,7 @@ impl Simulation for Flight {
 
     fn advise(&mut self, say: &mut dyn FnMut(String)) {
         /// The controls' names, their unit, and what may have been mistaken.
-        const CONTROLS: [(&str, &str, &str); crate::dynamics::CONTROLS] =
+        const CONTROLS: [(&str, &str, &str); crate::vehicle::CONTROLS] =
             [("delta_e", " rad", "; inputs are in rad, not in degrees"), ("phi", "", "")];
         for BeyondLimit { control, asked, limit } in self.newly_beyond_limits() {
             let (name, unit, mistake) = CONTROLS[control];

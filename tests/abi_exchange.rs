@@ -4,7 +4,11 @@
 
 mod common;
 
-use ahv::dynamics::{NOMINAL, STATES, State};
+use ahv::vehicle::NOMINAL;
+
+use ahv::vehicle::STATES;
+
+use ahv::vehicle::State;
 use common::{Api, Slave, reference};
 use fmi_model::v2::sys::{EventInfo, Status};
 
@@ -171,7 +175,7 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
 
 /// Value references of the states, in their order.
 fn state_references() -> [u32; STATES] {
-    ahv::dynamics::STATE_NAMES.map(reference)
+    ahv::vehicle::STATE_NAMES.map(reference)
 }
 
 #[test]

@@ -4,7 +4,9 @@
 
 mod common;
 
-use ahv::dynamics::{STATES, State};
+use ahv::vehicle::STATES;
+
+use ahv::vehicle::State;
 use common::{Api, Slave, configurations, reference};
 use fmi_model::v2::calls::{CALLS, PHASES, Phase};
 use fmi_model::v2::sys::{EventInfo, Status, StatusKind};

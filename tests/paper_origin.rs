@@ -4,10 +4,8 @@
 mod model;
 mod paper;
 
-use ahv::assembly::Chosen;
-use ahv::dynamics::Vehicle;
-use ahv::vehicle::AeroSet::{Parker2007, Xu2015};
-use ahv::vehicle::{Build, Configuration};
+use ahv::data::AeroSet::{Parker2007, Xu2015};
+use ahv::vehicle::{Build, Chosen, Configuration, Vehicle};
 use model::{AERO_SETS, assert_close, build, data, deviation};
 use paper::{
     FLEXIBLE, INERTIA, Seen, ends, floats, moved, pairs, printed, published, real_parts, seen, size,
@@ -48,7 +46,7 @@ fn rigid_vehicles() -> impl Iterator<Item = Seen> {
         factors.map(|[lift, drag, moment_alpha, elevator, thrust]| {
             let mut build = Build { aero, ..build(Configuration::Rigid) };
             let own = build.factors;
-            build.factors = ahv::factors::Factors {
+            build.factors = ahv::vehicle::Factors {
                 lift,
                 drag,
                 moment_alpha,

@@ -5,9 +5,8 @@
 mod model;
 mod paper;
 
-use ahv::dynamics::Vehicle;
-use ahv::vehicle::AeroSet::{Parker2007, Xu2015};
-use ahv::vehicle::Configuration;
+use ahv::data::AeroSet::{Parker2007, Xu2015};
+use ahv::vehicle::{Configuration, Vehicle};
 use model::{CONFIGURATIONS, assert_close, build, data, deviation, vehicle, vehicle_with};
 use paper::{FLEXIBLE, ends, floats, pairs, printed, published, seen, size};
 
@@ -116,7 +115,7 @@ fn paper_published_trim_closes_lift_but_not_moment() {
     // thrust and drag differ by 7 %, and a moment remains, so the digits are not of these fits.
     let vehicle = vehicle_with(Parker2007, Configuration::Rigid);
     let radians = std::f64::consts::PI / 180.0;
-    let mut x = [0.0; ahv::dynamics::STATES];
+    let mut x = [0.0; ahv::vehicle::STATES];
     x[0] = 7702.08 * 0.3048;
     x[1] = 85_000.0 * 0.3048;
     x[3] = 1.5153 * radians;

@@ -6,13 +6,12 @@ mod explicit;
 mod made_up;
 mod model;
 
-use ahv::aero::{
+use ahv::air::curve_fits::{
     ANSWERS, Aero, DRAG, Elastic, FORCE, INCIDENCE, LIFT, MOMENT, ModalForces, PerMode,
 };
-use ahv::dynamics::{GUSTS, RIGID, Vehicle};
-use ahv::factors::Factors;
-use ahv::modes::{MODES, Modes};
-use ahv::vehicle::{AeroSet, Build, Configuration, structure};
+use ahv::data::AeroSet;
+use ahv::structure::{MODES, Modes};
+use ahv::vehicle::{Build, Configuration, Factors, GUSTS, RIGID, Vehicle, structure};
 use explicit::air::speed_and_gravity;
 use made_up::{BY_HAND, Case, HEAVE, PITCH, ROUNDING, case, cases};
 use model::{AERO_SETS, assert_close, build, data, vehicle, vehicle_with};
@@ -134,7 +133,7 @@ fn verif_liquid_at_rest_lies_on_the_floor() {
     {
         let build = Build { aero, fuel_fraction, ..build(Configuration::SloshBeam) };
         let vehicle = Vehicle::new(&data, &build).unwrap();
-        let trim = ahv::trim::trim(&vehicle, &build.condition).unwrap();
+        let trim = ahv::dynamics::trim::trim(&vehicle, &build.condition).unwrap();
         let shown = vehicle.both(&trim.state, &trim.control, [0.0; GUSTS]).1;
         let airframe = &vehicle.airframe;
         let moment = (shown.loads.normal - shown.loads.lift)

@@ -3,8 +3,8 @@
 
 mod model;
 
-use ahv::atmosphere::Atmosphere;
-use ahv::scalar::Dual;
+use ahv::air::Atmosphere;
+use ahv::solve::Dual;
 use model::{assert_close, data};
 
 /// The tables print five digits.

@@ -2,8 +2,7 @@
 
 mod reference;
 
-use ahv::beam::{Beam, Oscillator};
-use ahv::hermite::Shape;
+use ahv::structure::{Beam, Oscillator, Shape};
 use proptest::prelude::*;
 use reference::{tanked, uniform, vehicle};
 
@@ -105,12 +104,12 @@ fn verif_frozen_liquid_stays_in_its_tank() {
         dry.mass.propellant_fraction.value = 0.0;
         Beam::even(&dry, 0.0).mass_properties(&[])
     };
-    let settings = ahv::slosh::SloshSettings {
+    let settings = ahv::structure::tanks::SloshSettings {
         damping_ratio: 0.0,
         frequency_rad_per_s: 1.0,
         gravity_m_per_s2: 9.0,
     };
-    let mut tanks = ahv::slosh::SloshingTank::pair(&data, 0.7, &settings).unwrap();
+    let mut tanks = ahv::structure::tanks::SloshingTank::pair(&data, 0.7, &settings).unwrap();
     tanks[0].centre_m += 0.0123;
     tanks[0].length_m *= 0.973;
     let properties = Beam::slosh(&data, &tanks).mass_properties(&[]);

@@ -3,15 +3,15 @@
 
 mod model;
 
-use ahv::aero::{DRAG, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
-use ahv::assembly::Chosen;
-use ahv::dynamics::{Airframe, COEFFICIENTS, FUEL, GUSTS, NOMINAL, RIGID, STATES, Vehicle};
-use ahv::factors::Factors;
-use ahv::linear::Linear;
-use ahv::modes::MODES;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::trim;
-use ahv::vehicle::{Body, Build, Configuration};
+use ahv::air::curve_fits::{DRAG, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::trim;
+use ahv::solve::{Dual, Scalar};
+use ahv::structure::MODES;
+use ahv::vehicle::{
+    Airframe, Body, Build, COEFFICIENTS, Chosen, Configuration, FUEL, Factors, GUSTS, NOMINAL,
+    RIGID, STATES, Vehicle,
+};
 use model::{AERO_SETS, CONFIGURATIONS, assert_close, build, data, deviation};
 use nalgebra::{Matrix5, SymmetricEigen};
 

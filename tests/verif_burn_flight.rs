@@ -3,14 +3,13 @@
 
 mod model;
 
-use ahv::burn::Burn;
-use ahv::dynamics::{FUEL, GUSTS};
+use ahv::air::Intake;
+use ahv::data::AeroSet;
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::intake::Intake;
-use ahv::modes::MODES;
 use ahv::shock_expansion::{Attitude, ShockExpansion};
-use ahv::vehicle::{AeroSet, Configuration};
+use ahv::structure::MODES;
+use ahv::vehicle::{Burn, Configuration, FUEL, GUSTS};
 use model::{CONFIGURATIONS, assert_close, data};
 
 /// Captured height against the first-principles model, up to Mach 10 and beyond.

@@ -3,10 +3,8 @@
 
 mod model;
 
-use ahv::beam::{Beam, Oscillator};
-use ahv::dynamics::Vehicle;
-use ahv::modes::{MODES, Modes};
-use ahv::vehicle::{Build, Configuration, structure};
+use ahv::structure::{Beam, MODES, Modes, Oscillator};
+use ahv::vehicle::{Build, Configuration, Vehicle, structure};
 use model::{build, data};
 use nalgebra::{DMatrix, DVector};
 

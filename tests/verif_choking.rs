@@ -3,13 +3,11 @@
 
 mod model;
 
-use ahv::atmosphere::Atmosphere;
-use ahv::choking::Choking;
+use ahv::air::{Atmosphere, Choking};
+use ahv::data::{Data, VehicleData};
 use ahv::gas::GasError;
-use ahv::params::VehicleData;
-use ahv::scalar::Dual;
 use ahv::shock_expansion::{Attitude, ShockExpansion};
-use ahv::vehicle::Data;
+use ahv::solve::Dual;
 use model::data;
 use proptest::prelude::*;
 

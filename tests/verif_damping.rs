@@ -2,8 +2,7 @@
 
 mod reference;
 
-use ahv::beam::{Beam, Oscillator};
-use ahv::modes::{FLEXIBLE, MODES, Modes};
+use ahv::structure::{Beam, FLEXIBLE, MODES, Modes, Oscillator};
 use reference::{Dd, Reference, displacement, dot, exact, tanked, uniform, vehicle};
 
 /// Relative error of a frequency. Promised are 1e-9; rounding is 1e-15.

@@ -1,14 +1,14 @@
 //! The data files: what they must hold, and how a wrong one is refused.
 #![allow(missing_docs)]
 
-use ahv::dynamics::Vehicle;
+use ahv::data::{
+    AeroData, Data, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData,
+    XU2015,
+};
+use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Parameters;
-use ahv::params::{
-    AeroData, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData, XU2015,
-};
-use ahv::trim::trim;
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::vehicle::{Build, Configuration, Vehicle};
 
 fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {
     for (key, value) in table {

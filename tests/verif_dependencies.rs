@@ -3,11 +3,10 @@
 
 mod model;
 
-use ahv::dynamics::CONTROLS;
-use ahv::dynamics::{NOMINAL, STATES};
+use ahv::data::AeroSet;
 use ahv::flight::{Flight, INPUTS, Setup};
 use ahv::variables::TABLE;
-use ahv::vehicle::{AeroSet, Configuration};
+use ahv::vehicle::{CONTROLS, Configuration, NOMINAL, STATES};
 use fmi_model::{Role, Variable};
 use model::{AERO_SETS, CONFIGURATIONS, flight_with, setup};
 

@@ -2,11 +2,10 @@
 //! against closed forms and DOP853.
 #![allow(missing_docs)]
 
-use ahv::blocks::{Blocks, phis};
-use ahv::decoupling::Decoupling;
-use ahv::dop853::DOP853;
-use ahv::exponential::Exponential;
-use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
+use ahv::solve::{
+    Arrival, Attempt, Blocks, DOP853, Decoupling, Exponential, Integrator, Method, System, Trial,
+    phis,
+};
 use nalgebra::{DMatrix, Matrix4, SMatrix, SVector, Vector4};
 
 /// Two slow states around an oscillator, of which the first is driven by it; states 1 and 2 are the

@@ -4,16 +4,14 @@
 
 mod model;
 
-use ahv::decoupling::Decoupling;
-use ahv::dop853::DOP853;
-use ahv::dynamics::{Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
-use ahv::exponential::Exponential;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::Trim;
 use ahv::flight::method;
-use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
-use ahv::linear::Linear;
-use ahv::modes::MODES;
-use ahv::trim::Trim;
-use ahv::vehicle::Configuration;
+use ahv::solve::{
+    Arrival, Attempt, DOP853, Decoupling, Exponential, Integrator, Method, System, Trial,
+};
+use ahv::structure::MODES;
+use ahv::vehicle::{Configuration, Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
 use model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight, flight_with, setup};
 use proptest::prelude::*;
 
@@ -121,7 +119,7 @@ proptest! {
         parameters.build.fuel_fraction = fuel;
         parameters.build.fuel_burn = burn;
         let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
-        let trim = ahv::trim::trim(&vehicle, &parameters.build.condition).unwrap();
+        let trim = ahv::dynamics::trim::trim(&vehicle, &parameters.build.condition).unwrap();
         let mut start = trim.state;
         for i in RIGID - 2..vehicle.states() {
             start[i] += disturbance[i + 2 - RIGID] * NOMINAL[i];

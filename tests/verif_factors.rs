@@ -4,13 +4,12 @@
 mod edited;
 mod model;
 
-use ahv::dynamics::Vehicle;
+use ahv::data::AeroSet;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::trim;
 use ahv::error::Error;
-use ahv::factors::Factors;
 use ahv::flight::Setup;
-use ahv::linear::Linear;
-use ahv::trim::trim;
-use ahv::vehicle::{AeroSet, Build, Configuration};
+use ahv::vehicle::{Build, Configuration, Factors, Vehicle};
 use edited::{SETS, Texts, add, edit};
 use fmi_model::table::find;
 use model::{CONFIGURATIONS, build, data, setup};

@@ -3,12 +3,20 @@
 
 mod model;
 
-use ahv::dynamics::{CONTROLS, NOMINAL, STATES, State, Vehicle};
+use ahv::vehicle::CONTROLS;
+
+use ahv::vehicle::NOMINAL;
+
+use ahv::vehicle::STATES;
+
+use ahv::vehicle::State;
+
+use ahv::data::AeroSet;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::trim;
 use ahv::error::Error;
-use ahv::linear::Linear;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::{Condition, trim};
-use ahv::vehicle::{AeroSet, Configuration};
+use ahv::solve::{Dual, Scalar};
+use ahv::vehicle::{Condition, Configuration, Vehicle};
 use model::{
     AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, flight_with, vehicle, vehicle_with,
 };

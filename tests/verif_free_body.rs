@@ -6,11 +6,11 @@
 mod explicit;
 mod model;
 
-use ahv::assembly::Chosen;
-use ahv::dynamics::{GUSTS, RIGID, STATES, State, Vehicle};
-use ahv::factors::Factors;
-use ahv::modes::MODES;
-use ahv::vehicle::{Body, Build, Configuration, Data};
+use ahv::data::Data;
+use ahv::structure::MODES;
+use ahv::vehicle::{
+    Body, Build, Chosen, Configuration, Factors, GUSTS, RIGID, STATES, State, Vehicle,
+};
 use explicit::air::speed_and_gravity;
 use explicit::beam::Beam;
 use explicit::books::Books;

@@ -3,11 +3,17 @@
 
 mod model;
 
-use ahv::dynamics::{NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::vehicle::NOMINAL;
+
+use ahv::vehicle::RIGID;
+
+use ahv::vehicle::STATES;
+
+use ahv::vehicle::State;
+
 use ahv::flight::Flight;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::Condition;
-use ahv::vehicle::Configuration;
+use ahv::solve::{Dual, Scalar};
+use ahv::vehicle::{Condition, Configuration, Vehicle};
 use model::{builds, data, deviation, flight_with, vehicle};
 
 /// Forces turned from one pair of axes into another, over g: a few roundings.

@@ -4,10 +4,8 @@
 mod explicit;
 mod model;
 
-use ahv::dynamics::Vehicle;
 use ahv::error::Error;
-use ahv::factors::Factors;
-use ahv::vehicle::{Build, Configuration};
+use ahv::vehicle::{Build, Configuration, Factors, Vehicle};
 use explicit::air::speed_and_gravity;
 use explicit::books::Books;
 use model::{AERO_SETS, CONFIGURATIONS, assert_close, build, data};

@@ -3,10 +3,9 @@
 
 mod model;
 
-use ahv::dop853::DOP853;
-use ahv::dynamics::State;
 use ahv::flight::Flight;
-use ahv::integrate::{Arrival, Attempt, Integrator, Method, System, Trial};
+use ahv::solve::{Arrival, Attempt, DOP853, Integrator, Method, System, Trial};
+use ahv::vehicle::State;
 use model::{CONFIGURATIONS, distance, flight};
 use proptest::prelude::*;
 use std::cell::Cell;

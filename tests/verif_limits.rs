@@ -3,9 +3,11 @@
 
 mod model;
 
-use ahv::dynamics::{GUSTS, STATES};
+use ahv::vehicle::GUSTS;
+
 use ahv::error::Error;
 use ahv::flight::Flight;
+use ahv::vehicle::STATES;
 use model::{data, setup, shown};
 
 const NAMES: [&str; 2] = ["slosh1", "slosh2"];

@@ -2,9 +2,8 @@
 
 mod reference;
 
-use ahv::beam::{Beam, Oscillator};
 use ahv::error::Error;
-use ahv::modes::{FLEXIBLE, MODES, Modes};
+use ahv::structure::{Beam, FLEXIBLE, MODES, Modes, Oscillator};
 use proptest::prelude::*;
 use reference::{Dd, Reference, displacement, dot, exact, tanked, uniform, vehicle};
 

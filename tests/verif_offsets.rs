@@ -3,10 +3,9 @@
 
 mod model;
 
-use ahv::dynamics::RIGID;
 use ahv::error::Error;
 use ahv::flight::{Flight, INPUTS};
-use ahv::vehicle::Configuration;
+use ahv::vehicle::{Configuration, RIGID};
 use model::{AERO_SETS, CONFIGURATIONS, data, setup};
 
 /// Of sums over five modes.

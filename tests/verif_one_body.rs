@@ -6,14 +6,13 @@
 mod explicit;
 mod model;
 
-use ahv::aero::INCIDENCE;
-use ahv::dynamics::{RIGID, Vehicle};
+use ahv::air::curve_fits::INCIDENCE;
+use ahv::data::Data;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::{Trim, trim};
 use ahv::error::Error;
-use ahv::factors::Factors;
-use ahv::linear::Linear;
-use ahv::modes::MODES;
-use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::structure::MODES;
+use ahv::vehicle::{Build, Configuration, Factors, RIGID, Vehicle};
 use explicit::beam::Beam;
 use explicit::elastic::Elastic;
 use explicit::flight::{Directions, Explicit};

@@ -5,13 +5,13 @@
 mod explicit;
 mod model;
 
-use ahv::assembly::Chosen;
-use ahv::dynamics::{Gust, NOMINAL, Outputs, RIGID, STATES, State, Vehicle};
+use ahv::dynamics::Outputs;
 use ahv::error::Error;
 use ahv::flight::Setup;
-use ahv::scalar::{Dual, Scalar};
-use ahv::trim::Condition;
-use ahv::vehicle::{Body, Build, Configuration};
+use ahv::solve::{Dual, Scalar};
+use ahv::vehicle::{
+    Body, Build, Chosen, Condition, Configuration, Gust, NOMINAL, RIGID, STATES, State, Vehicle,
+};
 use explicit::extrapolation::extrapolated;
 use fmi_model::table::find;
 use model::{CONFIGURATIONS, build, data, flight, setup};

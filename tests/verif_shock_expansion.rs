@@ -3,9 +3,9 @@
 
 mod model;
 
-use ahv::atmosphere::Atmosphere;
+use ahv::air::Atmosphere;
+use ahv::data::VehicleData;
 use ahv::gas::GasError;
-use ahv::params::VehicleData;
 use ahv::shock_expansion::stream::Stream;
 use ahv::shock_expansion::surface::PANELS;
 use ahv::shock_expansion::{AirLoads, Attitude, ShockExpansion};

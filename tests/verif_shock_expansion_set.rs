@@ -3,18 +3,16 @@
 
 mod model;
 
-use ahv::aero::{Aero, FORCE, LIFT};
-use ahv::aeroelastic::{Strips, derive};
-use ahv::atmosphere::Atmosphere;
-use ahv::beam::Beam;
-use ahv::dynamics::Vehicle;
-use ahv::hermite::Shape;
-use ahv::modes::{FLEXIBLE, Modes};
+use ahv::air::Atmosphere;
+use ahv::air::curve_fits::{Aero, FORCE, LIFT};
+use ahv::air::strip_theory::{Strips, derive};
+use ahv::data::AeroSet;
+use ahv::dynamics::trim::{Trim, trim};
 use ahv::shock_expansion::elastic::{COMPARED, deviation};
 use ahv::shock_expansion::stream::Stream;
 use ahv::shock_expansion::{Attitude, ShockExpansion};
-use ahv::trim::{Trim, trim};
-use ahv::vehicle::{AeroSet, Build, Configuration, structure};
+use ahv::structure::{Beam, FLEXIBLE, Modes, Shape};
+use ahv::vehicle::{Build, Configuration, Vehicle, structure};
 use model::{assert_close, build, data};
 
 /// Strips of uniform load in place of the true distribution, and one lift slope each: the share of

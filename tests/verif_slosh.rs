@@ -3,7 +3,9 @@
 mod reference;
 
 use ahv::error::Error;
-use ahv::slosh::{SloshSettings, SloshingTank, frequency, mass_ratio, propellant_kg_per_m};
+use ahv::structure::tanks::{
+    SloshSettings, SloshingTank, frequency, mass_ratio, propellant_kg_per_m,
+};
 use reference::vehicle;
 use std::f64::consts::PI;
 

@@ -4,8 +4,8 @@
 mod made_up;
 mod model;
 
-use ahv::aero::{ANSWERS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
-use ahv::vehicle::AeroSet;
+use ahv::air::curve_fits::{ANSWERS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use ahv::data::AeroSet;
 use made_up::{BEND, BY_HAND, HEAVE, PITCH, Powers, ROUNDING, case, cases, from, unit};
 use model::AERO_SETS;
 

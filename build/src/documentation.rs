@@ -1,8 +1,8 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
 use crate::workspace::{TEXT, read_text, root};
-use ahv::dynamics::FASTEST_GUST;
 use ahv::flight::{Flight, Setup};
+use ahv::vehicle::FASTEST_GUST;
 use anyhow::Result;
 use fmi_model::{Kind, Model, Role, Variable, identity::guid};
 use quick_xml::escape::escape;

@@ -3,8 +3,9 @@
 use crate::cli;
 use crate::table::{number, row, table};
 use crate::trim::{configuration, model, setup};
-use ahv::modes::{FLEXIBLE, Modes};
-use ahv::vehicle::{Build, Data, structure};
+use ahv::data::Data;
+use ahv::structure::{FLEXIBLE, Modes};
+use ahv::vehicle::{Build, structure};
 use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 
 use crate::cli::Command;
 use crate::workspace::{DATA, cargo, read_text, root, shown, target};
-use ahv::params::{AeroData, DataFile, VehicleData};
+use ahv::data::{AeroData, DataFile, VehicleData};
 use anyhow::{Context, Result};
 use clap::Args;
 use std::env;

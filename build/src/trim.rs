@@ -1,12 +1,11 @@
 //! Prints trimmed flight.
 
 use crate::cli::{Analyse, Set};
-use crate::describe;
 use crate::model_description::ModelDescription;
-use crate::settings;
 use crate::table::{number, row, table};
-use ahv::dynamics::RIGID;
+use crate::{describe, settings};
 use ahv::flight::{Flight, Setup};
+use ahv::vehicle::RIGID;
 use anyhow::{Result, anyhow};
 use fmi_model::table::find;
 use serde_json::json;

@@ -1,8 +1,8 @@
 //! What the pages state and the code decides: variables, limits, methods.
 #![allow(clippy::disallowed_methods)]
 
-use ahv::dop853::DOP853;
 use ahv::flight::{INPUT_ORDER, Setup};
+use ahv::solve::DOP853;
 use ahv::variables::TABLE;
 use ahv_tool::documentation;
 use fmi_model::{Kind, Role, Variable};

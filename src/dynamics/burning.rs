@@ -1,8 +1,8 @@
 //! Flight with fuel that burns.
 
-use super::{Airframe, Control, FUEL, Gust, Met, RIGID, State, Vehicle};
-use crate::burn::Burn;
-use crate::scalar::Scalar;
+use super::loads::Met;
+use crate::solve::Scalar;
+use crate::vehicle::{Airframe, Burn, Control, FUEL, Gust, RIGID, State, Vehicle};
 
 impl Vehicle {
     /// Rates while fuel burns, and what `f` makes of them and of those without the turning of the shapes.
@@ -46,10 +46,5 @@ impl Vehicle {
             rates[rate] = felt[rate] - turning;
         }
         f(&airframe, met, [rates, felt])
-    }
-
-    /// Whether fuel burns and none is left; a mass that is not a number counts as none.
-    pub fn out_of_fuel(&self, x: &State) -> bool {
-        self.burn.is_some() && (x[FUEL] < 0.0 || x[FUEL].is_nan())
     }
 }

@@ -1,32 +1,14 @@
-//! Where the model holds, and where it has numbers at all.
+//! Where the model holds, where it has numbers at all, and what its actuators can do.
 
-use super::stream::Stream;
-use super::{Airframe, Control, FUEL, Gust, STATES, State, Vehicle};
-use crate::envelope::{Limited, tightest};
-use crate::modes::SLOSH;
+use super::airflow::Stream;
+use crate::air::{Limited, tightest};
+use crate::structure::{FLEXIBLE, SLOSH};
+use crate::vehicle::{
+    Airframe, Control, FASTEST_GUST, FUEL, Gust, STATE_NAMES, STATES, State, Vehicle,
+};
 
 /// Outputs that show the displacement of the liquid in the fore and aft tank.
 const SLOSH_NAMES: [&str; SLOSH] = ["slosh1", "slosh2"];
-
-/// Names of the states in the variable table.
-pub const STATE_NAMES: [&str; STATES] = [
-    "V",
-    "h",
-    "gamma",
-    "alpha",
-    "q",
-    "eta1",
-    "eta1_dot",
-    "eta2",
-    "eta2_dot",
-    "eta3",
-    "eta3_dot",
-    "eta_slosh1",
-    "eta_slosh1_dot",
-    "eta_slosh2",
-    "eta_slosh2_dot",
-    "fuel_mass",
-];
 
 /// Size up to which a state, in its unit, leaves every term of the equations finite: a power of two.
 const FAR: f64 = (1_u64 << 33) as f64;
@@ -59,13 +41,32 @@ pub fn numberless(x: &State) -> Option<Limited> {
 }
 
 impl Vehicle {
-    /// The state as moving air meets it: speed through the air for V, incidence to it for alpha. Still
-    /// air leaves it bit for bit as it is.
-    pub fn as_met(x: &State, gust: Gust) -> State {
+    /// Smallest and largest elevator deflection (rad) and fuel equivalence ratio.
+    pub fn ranges(&self) -> Control<[f64; 2]> {
+        let [delta_e, phi] = self.limits;
+        [[-delta_e, delta_e], [0.0, phi]]
+    }
+
+    /// Controls cut to what the actuators can do.
+    pub fn saturate(&self, u: Control) -> Control {
+        let [[least, largest], [lean, rich]] = self.ranges();
+        [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+    }
+
+    /// A gust cut to the fastest.
+    pub fn gust(wanted: Gust) -> Gust {
+        wanted.map(|speed| speed.clamp(-FASTEST_GUST, FASTEST_GUST))
+    }
+
+    /// Whether fuel burns and none is left; a mass that is not a number counts as none.
+    pub fn out_of_fuel(&self, x: &State) -> bool {
+        self.burn.is_some() && (x[FUEL] < 0.0 || x[FUEL].is_nan())
+    }
+
+    /// Altitude, speed through the air and incidence to it.
+    fn as_met(x: &State, gust: Gust) -> [f64; 3] {
         let Stream { speed, incidence, .. } = Stream::new(x, gust);
-        let mut met = *x;
-        (met[0], met[3]) = (speed, incidence);
-        met
+        [x[1], speed, incidence]
     }
 
     /// Calls `f` with the airframe at a state.
@@ -102,9 +103,9 @@ impl Vehicle {
     /// its depth, and with fuel if it burns.
     pub fn holds(&self, x: &State, u: &Control, gust: Gust) -> bool {
         let met = Self::as_met(x, gust);
-        self.aero.envelope.holds(&self.atmosphere, &met)
+        self.aero.envelope.holds(&self.atmosphere, met)
             && !self.out_of_fuel(x)
-            && (self.modes <= crate::modes::FLEXIBLE
+            && (self.modes <= FLEXIBLE
                 || self.sloshing(x).iter().all(|limited| limited.margin() >= 0.0))
             && self.choking(x, u, gust).is_none_or(|limited| limited.margin() >= 0.0)
     }
@@ -112,9 +113,9 @@ impl Vehicle {
     /// All quantities that have limits.
     pub fn limited(&self, x: &State, u: &Control, gust: Gust) -> impl Iterator<Item = Limited> {
         let met = Self::as_met(x, gust);
-        let sloshing = (self.modes > crate::modes::FLEXIBLE).then(|| self.sloshing(x));
+        let sloshing = (self.modes > FLEXIBLE).then(|| self.sloshing(x));
         let others = sloshing.into_iter().flatten().chain(self.choking(x, u, gust));
-        self.aero.envelope.limited(&self.atmosphere, &met).into_iter().chain(others)
+        self.aero.envelope.limited(&self.atmosphere, met).into_iter().chain(others)
     }
 
     /// The quantity that is outside its limits or, inside all, next to them.

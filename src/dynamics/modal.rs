@@ -1,76 +1,11 @@
-//! The modes in the air: sums over all of them, term by term for all quantities at once.
-//!
-//! The same operations in the same order on every processor, so the same bits, but four quantities at a
-//! time where it can. They are functions of their own: inlined among others, whose results go to
-//! memory in pairs, a compiler packs them in pairs as well.
+//! Motion of the modes in the air; a function of its own for the reason that [`super::coefficients`] gives.
 
-use super::{Airframe, Control, Met, RIGID, State};
-use crate::aero::{
-    ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
-};
-use crate::modes::MODES;
-use crate::scalar::{Over, Scalar};
+use super::coefficients::add;
+use super::loads::Met;
+use crate::solve::{Over, Scalar};
+use crate::structure::MODES;
+use crate::vehicle::{Airframe, RIGID, State};
 use multiversion::multiversion;
-
-/// Adds a term to each of some quantities.
-#[inline(always)]
-fn add<C: Copy, S: Scalar + Over<C>, const N: usize>(sum: &mut [S; N], factor: S, per: &[C; N]) {
-    for i in 0..N {
-        sum[i] = sum[i] + factor * per[i];
-    }
-}
-
-/// What decides eq. (4), without the dynamic pressure.
-pub struct Coefficients<S> {
-    /// C_L, C_D, C_M and C_T.
-    pub body: [S; FITS],
-    /// Lift coefficient that the plume adds.
-    pub plume: S,
-    /// The elevator's lift over its slope at zero, rad.
-    pub elevator: S,
-    /// Incidence of the body, rad: that of the mean axes and what sloshing liquid turns it by.
-    pub incidence: S,
-    /// Incidence of the engine's inflow, rad.
-    pub inflow: S,
-    /// What the air answers to bending and pitch rate in N_i, over qbar S and the modal mass, 1/kg.
-    pub forces: PerMode<S>,
-}
-
-/// Coefficients at a state in air that meets the vehicle at an incidence (rad) and a speed (of which one
-/// over it is given, s/m).
-#[multiversion(targets("x86_64+avx"))]
-pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
-    aero: &Aero,
-    terms: &Elastic<C>,
-    x: &State<S>,
-    u: &Control<S>,
-    [alpha, per_speed]: [S; 2],
-) -> Coefficients<S> {
-    let mut elastic = [S::constant(0.0); ANSWERS];
-    for (k, [per_eta, per_rate]) in terms.per.iter().enumerate() {
-        add(&mut elastic, x[RIGID + 2 * k], per_eta);
-        add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
-    }
-    add(&mut elastic, x[4] * per_speed, &terms.pitch_rate);
-    let (delta_e, phi, body) = (u[0], u[1], alpha + elastic[INCIDENCE]);
-    let inflow = body + elastic[INFLOW];
-    let incidence = [body, body, body, inflow];
-    let own = [elastic[LIFT], elastic[DRAG], elastic[MOMENT], S::constant(0.0)];
-    let fuel: [S; FITS] =
-        std::array::from_fn(|row| phi * aero.fits_phi.row(row).body(incidence[row]));
-    let coefficients = std::array::from_fn(|row| {
-        aero.fits.row(row).at(incidence[row], delta_e) + fuel[row] + own[row]
-    });
-    let elevator = (delta_e * delta_e * aero.elevator_bend + 1.0) * delta_e;
-    Coefficients {
-        body: coefficients,
-        plume: fuel[LIFT],
-        elevator,
-        incidence: body,
-        inflow,
-        forces: std::array::from_fn(|i| elastic[FORCE + i]),
-    }
-}
 
 /// Second derivatives of the modal coordinates.
 #[multiversion(targets("x86_64+avx"))]

@@ -1,26 +1,10 @@
 //! What a flight shows beside its states.
 
-use super::Imu;
-use crate::modes::SLOSH;
-
-/// Forces on the vehicle, per metre of width.
-#[derive(Debug, Clone, Copy)]
-pub struct Loads<S> {
-    /// Dynamic pressure, Pa.
-    pub qbar: S,
-    /// Mach number.
-    pub mach: S,
-    /// Lift, N/m.
-    pub lift: S,
-    /// Drag, N/m.
-    pub drag: S,
-    /// Thrust, N/m.
-    pub thrust: S,
-    /// Pitching moment about the mass centre, nose up, with the thrust's share, N.
-    pub moment: S,
-    /// Aerodynamic force normal to the body axis, N/m.
-    pub normal: S,
-}
+use super::loads::{Loads, Met};
+use super::sensors::{self, Imu};
+use crate::solve::{Over, Scalar};
+use crate::structure::SLOSH;
+use crate::vehicle::{Airframe, Control, State, Stations, Vehicle};
 
 /// What a flight shows beside its states.
 #[derive(Debug, Clone, Copy)]
@@ -41,21 +25,6 @@ pub struct Outputs<S = f64> {
     pub choking_margin: S,
 }
 
-impl<S: Copy> Loads<S> {
-    /// Each quantity by itself.
-    fn map<T>(self, f: impl Fn(S) -> T) -> Loads<T> {
-        Loads {
-            qbar: f(self.qbar),
-            mach: f(self.mach),
-            lift: f(self.lift),
-            drag: f(self.drag),
-            thrust: f(self.thrust),
-            moment: f(self.moment),
-            normal: f(self.normal),
-        }
-    }
-}
-
 impl<S: Copy> Outputs<S> {
     /// Each quantity by itself, for example the derivative out of a dual number.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Outputs<T> {
@@ -73,6 +42,30 @@ impl<S: Copy> Outputs<S> {
             },
             alpha_probe: f(self.alpha_probe),
             choking_margin: f(self.choking_margin),
+        }
+    }
+}
+
+impl Vehicle {
+    /// The outputs in known air, at one fuel level; `rates` are those that an accelerometer feels.
+    pub(super) fn shown<C: Scalar, S: Scalar + Over<C>>(
+        &self,
+        airframe: &Airframe<C>,
+        met: &Met<S>,
+        x: &State<S>,
+        u: &Control<S>,
+        rates: &State<S>,
+    ) -> Outputs<S> {
+        let gravity = self.atmosphere.sea_level_gravity();
+        let Stations { imu, probe } = self.stations;
+        Outputs {
+            loads: met.loads,
+            theta: x[2] + x[3],
+            slosh: airframe.sloshing(x),
+            n_z: met.loads.normal * (C::constant(1.0) / (airframe.mass * gravity)),
+            imu: sensors::imu(airframe, met, x, rates, imu, gravity),
+            alpha_probe: sensors::vane(airframe, met, x, rates, probe),
+            choking_margin: self.choking_margin(met, u),
         }
     }
 }

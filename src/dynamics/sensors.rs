@@ -4,36 +4,11 @@
 //! pitch rate at its distance from the mass centre, and by deflection and slope of the modes. Relative
 //! motion in rotating axes: Etkin, Dynamics of Atmospheric Flight, 1972, section 5.1.
 
-use super::{Airframe, Met, RIGID, State};
-use crate::aero::PerMode;
-use crate::error::Error;
-use crate::modes::MODES;
-use crate::scalar::{Over, Scalar};
-
-/// Where the sensors sit, m from the nose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stations {
-    /// Inertial measurement unit.
-    pub imu: f64,
-    /// Incidence vane.
-    pub probe: f64,
-}
-
-impl Stations {
-    /// Whether both are on a body of this length, m.
-    ///
-    /// # Errors
-    /// [`Error::Value`] with the station that is not.
-    pub fn check(&self, length_m: f64) -> Result<(), Error> {
-        for (variable, value) in [("imu_station", self.imu), ("probe_station", self.probe)] {
-            if !(0.0..=length_m).contains(&value) {
-                let expected = format!("a sensor sits on the body, from 0 to {length_m} m");
-                return Err(Error::Value { variable: variable.into(), value, expected });
-            }
-        }
-        Ok(())
-    }
-}
+use super::loads::Met;
+use crate::air::curve_fits::PerMode;
+use crate::solve::{Over, Scalar};
+use crate::structure::MODES;
+use crate::vehicle::{Airframe, RIGID, State};
 
 /// Motion of a point of the body against the mean axes, up positive.
 struct Motion<S> {

@@ -1,7 +1,7 @@
 //! What works and is probably not meant.
 
-use super::Flight;
-use crate::dynamics::CONTROLS;
+use super::in_flight::Flight;
+use crate::vehicle::CONTROLS;
 
 /// A control that asks for more than its actuator can do.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,9 @@
 //! The vehicle as the integrator sees it.
 
-use super::{INPUTS, Inputs};
-use crate::dynamics::{Control, Gust, NOMINAL, STATES, State, Vehicle, is_finite};
-use crate::integrate::System;
+use super::inputs::{INPUTS, Inputs};
+use crate::dynamics::is_finite;
+use crate::solve::System;
+use crate::vehicle::{Control, Gust, NOMINAL, STATES, State, Vehicle};
 
 /// A vehicle under the controls of one step.
 pub(super) struct ControlledVehicle<'a> {

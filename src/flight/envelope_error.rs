@@ -1,10 +1,10 @@
 //! Why a flight ends.
 
-use super::Inputs;
 use super::controlled_vehicle::in_effect;
-use crate::dynamics::{Control, FUEL, State, Vehicle};
-use crate::envelope::Limited;
+use super::inputs::Inputs;
+use crate::air::Limited;
 use crate::error::Error;
+use crate::vehicle::{Control, FUEL, State, Vehicle};
 
 /// First look beyond the last valid instant, s, and how often it is doubled: to a second.
 const LOOK: f64 = 1e-9;

@@ -1,6 +1,6 @@
 //! Inputs between communication points: polynomials in time.
 
-use crate::dynamics::{CONTROLS, Control, GUSTS, Gust};
+use crate::vehicle::{CONTROLS, Control, GUSTS, Gust};
 
 /// Controls, then the gust.
 pub const INPUTS: usize = CONTROLS + GUSTS;

@@ -1,10 +1,8 @@
 //! What can be chosen before a flight.
 
-use crate::dynamics::Stations;
-use crate::factors::Factors;
-use crate::modes::{FLEXIBLE, MODES};
-use crate::trim::Condition;
-use crate::vehicle::{AeroSet, Build, Configuration, Data};
+use crate::data::{AeroSet, Data};
+use crate::structure::{FLEXIBLE, MODES};
+use crate::vehicle::{Build, Condition, Configuration, Factors, Stations};
 
 /// Meaning of the two inputs. The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,16 +1,17 @@
 //! Before a flight: the parameters, and the flight that starts from them.
 
-use super::{DEFAULT_TOLERANCE, FIRST_STEP, Flight, InputMode, Inputs, Offsets, Parameters};
-use crate::decoupling::Decoupling;
-use crate::dynamics::{CONTROLS, FUEL, GUSTS, NOMINAL, RIGID, STATES, State, Vehicle};
-use crate::envelope::Limited;
+use super::in_flight::Flight;
+use super::inputs::Inputs;
+use super::method::{DEFAULT_TOLERANCE, FIRST_STEP, Method, method};
+use super::parameters::{InputMode, Offsets, Parameters};
+use crate::air::Limited;
+use crate::data::Data;
+use crate::dynamics::trim;
+use crate::dynamics::trim::Trim;
 use crate::error::Error;
-use crate::exponential::Exponential;
-use crate::integrate::Integrator;
-use crate::linear::Linear;
-use crate::modes::{FLEXIBLE, MODES, SLOSH};
-use crate::trim::{self, Trim};
-use crate::vehicle::{Build, Data};
+use crate::solve::Integrator;
+use crate::structure::{FLEXIBLE, MODES, SLOSH};
+use crate::vehicle::{Build, CONTROLS, FUEL, GUSTS, RIGID, State, Vehicle};
 use std::sync::Arc;
 
 /// What a flight starts from.
@@ -101,24 +102,10 @@ fn built(data: &Data, build: &Build) -> Result<Box<Vehicle>, Error> {
     Ok(Box::new(Vehicle::new(data, build)?))
 }
 
-/// Incidence, pitch rate and modes: the states that move fast.
-const FAST: usize = 2 + 2 * MODES;
-/// Those before them.
-const SLOW: usize = RIGID - 2;
-
-/// What integrates a flight.
-pub type Method = Exponential<STATES, SLOW, FAST>;
-
 /// The method for a vehicle, likewise.
 #[inline(never)]
 fn boxed(vehicle: &Vehicle, steady: &Trim) -> Box<Method> {
     Box::new(method(vehicle, steady))
-}
-
-/// The method for a vehicle, its fast motion decoupled about steady flight.
-pub fn method(vehicle: &Vehicle, steady: &Trim) -> Method {
-    let jacobian = Linear::new(vehicle, &steady.state, &steady.control).a;
-    Exponential::new(Decoupling::new(&jacobian, &NOMINAL))
 }
 
 /// Adds the offsets. Those of the sloshing masses are of their displacements: the slosh modes take what

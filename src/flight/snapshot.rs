@@ -1,8 +1,9 @@
 //! What has to be remembered of a flight.
 
-use super::{Flight, INPUT_ORDER, INPUTS, Inputs};
-use crate::dynamics::{STATES, State};
-use crate::integrate::Integrator;
+use super::in_flight::Flight;
+use super::inputs::{INPUT_ORDER, INPUTS, Inputs};
+use crate::solve::Integrator;
+use crate::vehicle::{STATES, State};
 
 /// All that a flight remembers besides its vehicle: plain numbers, enough to continue it bit for bit.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,10 @@
 //! Derivatives of everything that a flight has, exact by dual numbers.
 
-use super::{Flight, INPUTS, Inputs, Sample};
-use crate::dynamics::{Gust, State};
+use super::in_flight::{Flight, Sample};
+use super::inputs::{INPUTS, Inputs};
 use crate::error::Error;
-use crate::scalar::Dual;
+use crate::solve::Dual;
+use crate::vehicle::{Gust, State};
 
 impl Flight {
     /// The change of a sample for a change of the state and of the inputs.

@@ -1,9 +1,9 @@
 //! The rows.
 
 use super::vocabulary::*;
-use crate::dynamics::{FASTEST_GUST, RIGID};
+use crate::data::AeroSet;
 use crate::flight::{InputMode, Setup};
-use crate::vehicle::{AeroSet, Configuration};
+use crate::vehicle::{Configuration, FASTEST_GUST, RIGID};
 use fmi_model::{Dependencies, Kind, Variable};
 
 /// All variables.

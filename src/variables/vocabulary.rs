@@ -1,8 +1,10 @@
 //! The vocabulary of the table's rows: units, masks of dependencies, constructors, enumerations.
 
-use crate::dynamics::{NOMINAL, STATES};
+use crate::vehicle::NOMINAL;
+
+use crate::data::OWN;
 use crate::flight::{Flight, Sample, Setup};
-use crate::params::OWN;
+use crate::vehicle::STATES;
 use fmi_model::{Dependencies, Kind, Unit, Variable};
 
 /// Degrees per radian.

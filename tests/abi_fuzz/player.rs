@@ -1,9 +1,9 @@
 //! The master that plays: its instance, what it knows of it, and the arguments it passes.
 
 use crate::common::{Api, Random, Slave};
-use ahv::dynamics::STATES;
 use ahv::flight::Setup;
 use ahv::variables::TABLE;
+use ahv::vehicle::STATES;
 use fmi_model::v2::calls::Phase;
 use fmi_model::v2::sys::{Component, FmuState, Status, ValueReference};
 use fmi_model::{Kind, Variable};

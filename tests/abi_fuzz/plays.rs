@@ -2,7 +2,7 @@
 
 use crate::common::Random;
 use crate::player::{Array, BLANK, BLANK_INTEGER, Player, Saved, boolean, integer, real};
-use ahv::dynamics::{NOMINAL, STATES};
+use ahv::vehicle::{NOMINAL, STATES};
 use fmi_model::v2::calls::Phase;
 use fmi_model::v2::sys::{Boolean, EventInfo, FmiString, FmuState, Status, StatusKind};
 use std::ffi::CStr;

@@ -3,7 +3,7 @@
 use crate::common::{Api, configurations};
 use crate::host::Host;
 use crate::watch::Watch;
-use ahv::dynamics::NOMINAL;
+use ahv::vehicle::NOMINAL;
 use fmi_model::v2::sys::{Status, Type};
 use fmi_model::{Kind, table::find};
 

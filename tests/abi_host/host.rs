@@ -2,9 +2,9 @@
 
 use crate::common::{Api, Slave, reference};
 use crate::watch::Watch;
-use ahv::dynamics::{STATES, State};
 use ahv::flight::Setup;
 use ahv::variables::TABLE;
+use ahv::vehicle::{STATES, State};
 use fmi_model::v2::sys::{EventInfo, FmuState, Status, StatusKind, Type};
 use fmi_model::{Kind, Role};
 use std::ptr::{null, null_mut};

@@ -1,10 +1,10 @@
 //! Data files whose text is changed before it is read.
 #![allow(dead_code, missing_docs)]
 
-use ahv::params::{
-    AeroData, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE, VehicleData, XU2015,
+use ahv::data::{
+    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, SHOCK_EXPANSION, VEHICLE,
+    VehicleData, XU2015,
 };
-use ahv::vehicle::{AeroSet, Data};
 
 /// The texts of all files.
 #[derive(Clone)]

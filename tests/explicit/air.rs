@@ -1,8 +1,8 @@
 //! Air and its forces on the body, in complex numbers: derivatives by complex steps.
 
 use super::books::{Total, Wanted};
-use ahv::params::{AeroData, AirData, EarthData, PolynomialData, Quantity, VehicleData};
-use ahv::trim::Condition;
+use ahv::data::{AeroData, AirData, EarthData, PolynomialData, Quantity, VehicleData};
+use ahv::vehicle::Condition;
 use nalgebra::Complex;
 
 pub type C = Complex<f64>;

@@ -1,7 +1,7 @@
 //! Finite elements of its own: the bending body with two sloshing masses, all nodes, no modes.
 
 use super::books::{Books, Liquid, spread};
-use ahv::params::VehicleData;
+use ahv::data::VehicleData;
 use nalgebra::{DMatrix, DVector};
 
 /// A place on the beam: what deflection and slope there are of a displacement.

@@ -1,6 +1,6 @@
 //! Mass books: what is where, from the data files alone.
 
-use ahv::params::{AeroData, TankData, VehicleData};
+use ahv::data::{AeroData, TankData, VehicleData};
 use ahv::vehicle::Build;
 use std::f64::consts::PI;
 

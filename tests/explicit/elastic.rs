@@ -1,13 +1,13 @@
 //! Short period of the bending body: `M u'' + C u' + K u = 0` over all nodes, with the air in C and K.
 //!
 //! Speed and altitude are held, which moves a pole by the square of the phugoid's frequency over its own:
-//! 1e-4. Incidence, its local changes and the surfaces they act on are those of `src/aeroelastic.rs`,
+//! 1e-4. Incidence, its local changes and the surfaces they act on are those of `src/air/strip_theory.rs`,
 //! here as distributed loads on the nodes.
 
 use super::air::{fit, fit_phi, real, surfaces};
 use super::beam::{Beam, Place};
 use super::flight::Explicit;
-use ahv::params::{AeroData, VehicleData};
+use ahv::data::{AeroData, VehicleData};
 use nalgebra::{DMatrix, DVector};
 
 pub struct Elastic {

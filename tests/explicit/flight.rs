@@ -8,8 +8,8 @@
 
 use super::air::{Air, C, Force, Met, atan, atmosphere, real, speed_and_gravity};
 use super::books::{Books, Wanted};
-use ahv::trim::Condition;
-use ahv::vehicle::Data;
+use ahv::data::Data;
+use ahv::vehicle::Condition;
 use nalgebra::{Complex, DMatrix, SMatrix, SVector, linalg::balancing};
 
 /// Velocity of P (horizontal, up), altitude, pitch, pitch rate, then displacement and rate of each mass.
@@ -70,7 +70,7 @@ pub struct Linear {
 impl<'a> Explicit<'a> {
     pub fn new(
         data: &'a Data,
-        set: ahv::vehicle::AeroSet,
+        set: ahv::data::AeroSet,
         wanted: &Wanted,
         condition: &Condition,
         directions: Directions,
@@ -127,7 +127,7 @@ impl<'a> Explicit<'a> {
     }
 
     /// Speed, m/s, and dynamic pressure by the reference area, N/m.
-    pub fn dynamic_force(&self, set: &ahv::params::AeroData) -> (f64, f64) {
+    pub fn dynamic_force(&self, set: &ahv::data::AeroData) -> (f64, f64) {
         let earth = &self.data.earth;
         let [speed, altitude, _] = self.condition;
         let (radius, gravity) = (earth.earth.radius_m.value, earth.earth.gravity_m_per_s2.value);

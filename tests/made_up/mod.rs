@@ -2,12 +2,10 @@
 #![allow(dead_code, missing_docs)]
 
 use super::model::{AERO_SETS, data};
-use ahv::aero::{ANSWERS, Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
-use ahv::aeroelastic::{Strips, derive};
-use ahv::beam::Beam;
-use ahv::hermite::Shape;
-use ahv::modes::{MODES, Modes};
-use ahv::vehicle::{AeroSet, Data};
+use ahv::air::curve_fits::{ANSWERS, Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
+use ahv::air::strip_theory::{Strips, derive};
+use ahv::data::{AeroSet, Data};
+use ahv::structure::{Beam, MODES, Modes, Shape};
 
 /// Sums over 2,000 quadrature points.
 pub const ROUNDING: f64 = 1e-12;

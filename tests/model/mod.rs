@@ -1,9 +1,15 @@
 //! Shared by the integration tests.
 #![allow(dead_code, missing_docs)]
 
-use ahv::dynamics::{NOMINAL, STATES, State, Vehicle};
+use ahv::vehicle::NOMINAL;
+
+use ahv::vehicle::STATES;
+
+use ahv::vehicle::State;
+
+use ahv::data::{AeroSet, Data};
 use ahv::flight::{Flight, Parameters, Setup};
-use ahv::vehicle::{AeroSet, Build, Configuration, Data};
+use ahv::vehicle::{Build, Configuration, Vehicle};
 use fmi_model::table::find;
 
 pub const CONFIGURATIONS: [Configuration; 3] =

@@ -2,12 +2,10 @@
 #![allow(dead_code, missing_docs)]
 
 use crate::model::{build, data};
-use ahv::assembly::Chosen;
-use ahv::dynamics::Vehicle;
-use ahv::linear::Linear;
-use ahv::trim::{Trim, trim};
-use ahv::vehicle::AeroSet::{self, Parker2007};
-use ahv::vehicle::{Body, Build, Configuration};
+use ahv::data::AeroSet::{self, Parker2007};
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::{Trim, trim};
+use ahv::vehicle::{Body, Build, Chosen, Configuration, Vehicle};
 use nalgebra::Complex;
 
 /// Pitch inertia, kg m^2/m, with which the published fits give the printed rigid column at 55 ft.

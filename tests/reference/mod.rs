@@ -4,10 +4,9 @@
 
 mod double_double;
 
-use ahv::beam::{Beam, Oscillator};
-use ahv::modes::Modes;
-use ahv::params::{DataFile, VEHICLE, VehicleData};
-use ahv::slosh::{SloshSettings, SloshingTank};
+use ahv::data::{DataFile, VEHICLE, VehicleData};
+use ahv::structure::tanks::{SloshSettings, SloshingTank};
+use ahv::structure::{Beam, Modes, Oscillator};
 pub use double_double::{Dd, exact};
 
 /// Entries above the diagonal in a row of the beam's matrices.

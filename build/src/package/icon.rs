@@ -2,9 +2,10 @@
 
 use crate::figure::{COLOURS, FRAME};
 use crate::raster;
+use ahv::data::Data;
 use ahv::flight::Setup;
-use ahv::modes::Modes;
-use ahv::vehicle::{Data, structure};
+use ahv::structure::Modes;
+use ahv::vehicle::structure;
 use anyhow::{Result, anyhow};
 use plotters::prelude::*;
 

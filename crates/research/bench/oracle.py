@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tests" / "oracle")
 from oracle import Vehicle
 
 DOUBLET = (0.0, 0.01, -0.01, 0.0)
-# As in src/dynamics.rs.
+# As in src/vehicle/state.rs.
 NOMINAL = np.array(
     [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05]
 )

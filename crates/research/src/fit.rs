@@ -3,18 +3,18 @@
 mod regression;
 
 use crate::cli::Fit;
-use ahv::atmosphere::Atmosphere;
-use ahv::dynamics::Vehicle;
-use ahv::flight::Parameters;
-use ahv::modes::{FLEXIBLE, Modes};
-use ahv::params::{
-    AeroData, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE, VehicleData,
+use ahv::air::Atmosphere;
+use ahv::data::{
+    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE,
+    VehicleData,
 };
+use ahv::dynamics::trim::trim;
+use ahv::flight::Parameters;
 use ahv::shock_expansion::elastic::{self, COMPARED};
 use ahv::shock_expansion::stream::Stream;
 use ahv::shock_expansion::{Attitude, ShockExpansion};
-use ahv::trim::trim;
-use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
+use ahv::structure::{FLEXIBLE, Modes};
+use ahv::vehicle::{Build, Configuration, Vehicle, structure};
 use ahv_tool::table::{row, table};
 use ahv_tool::workspace::{DATA, read_text, root, shown, write};
 use anyhow::{Result, bail};

@@ -12,8 +12,7 @@ mod stations;
 mod tradeoff;
 
 use crate::cli::{Identified, Identify};
-use ahv::params::{AeroData, DataFile, VehicleData};
-use ahv::vehicle::Data;
+use ahv::data::{AeroData, Data, DataFile, VehicleData};
 use ahv_tool::workspace::{DATA, read_text, root, shown, write};
 use anyhow::{Result, bail};
 pub use cells::size;

@@ -5,11 +5,10 @@ mod tableaus;
 pub use tableaus::RKF78;
 
 use crate::cli::Compare;
-use ahv::dop853::DOP853;
-use ahv::dynamics::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::dynamics::trim::Trim;
 use ahv::flight::{DEFAULT_TOLERANCE, method};
-use ahv::integrate::{Arrival, Integrator, Method, System};
-use ahv::trim::Trim;
+use ahv::solve::{Arrival, DOP853, Integrator, Method, System};
+use ahv::vehicle::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv_tool::table::{row, table};
 use ahv_tool::trim::{flight, model};
 use anyhow::Result;

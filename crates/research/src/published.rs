@@ -1,7 +1,7 @@
 //! What the paper prints, read and checked: a wrong number is refused with file, key and limit.
 
 use ahv::error::Error;
-use ahv::modes::FLEXIBLE;
+use ahv::structure::FLEXIBLE;
 use serde::Deserialize;
 
 const PUBLISHED_TOML: &str = include_str!("../../../src/data/published.toml");

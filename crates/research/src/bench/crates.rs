@@ -1,8 +1,8 @@
 //! Integrators of other crates on our right-hand sides.
 
 use crate::methods::Counted;
-use ahv::dynamics::{NOMINAL, STATES, State};
-use ahv::integrate::System as _;
+use ahv::solve::System as _;
+use ahv::vehicle::{NOMINAL, STATES, State};
 use anyhow::Result;
 use ode_solvers::{Dop853, OutputType, SVector, System};
 

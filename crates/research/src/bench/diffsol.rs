@@ -2,8 +2,8 @@
 //! Jacobians.
 
 use super::crates::Scaled;
-use ahv::dynamics::{CONTROLS, NOMINAL, STATES, State};
-use ahv::linear::along;
+use ahv::dynamics::linear::along;
+use ahv::vehicle::{CONTROLS, NOMINAL, STATES, State};
 use anyhow::Result;
 use diffsol::{
     NalgebraContext, NalgebraLU, NalgebraMat, NalgebraVec, OdeBuilder, OdeEquations,

@@ -4,7 +4,7 @@ use super::Effort;
 use super::precision::{Point, TOLERANCES};
 use super::spread::Spread;
 use crate::methods::error;
-use ahv::dynamics::{STATES, State};
+use ahv::vehicle::{STATES, State};
 use ahv_tool::fmu::Fmu;
 use ahv_tool::package::{self, Targets};
 use ahv_tool::workspace::{root, target};

@@ -1,7 +1,7 @@
 //! The polynomials of eq. (4), fitted to the first-principles model by least squares.
 
+use ahv::data::AeroData;
 use ahv::gas::GasError;
-use ahv::params::AeroData;
 use ahv::shock_expansion::stream::Stream;
 use ahv::shock_expansion::{Attitude, ShockExpansion};
 use anyhow::{Result, anyhow};

@@ -1,10 +1,9 @@
 //! Bodies by what an identification may move of them: of the numbers of a coefficient set only inertia
 //! and mass centre change the structure, and its modes cost more than all the rest.
 
-use ahv::assembly::Chosen;
+use ahv::data::Inertia;
 use ahv::error::Error;
-use ahv::params::Inertia;
-use ahv::vehicle::{Body, Configuration};
+use ahv::vehicle::{Body, Chosen, Configuration};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -39,8 +38,8 @@ impl Bodies {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ahv::data::Data;
     use ahv::flight::Parameters;
-    use ahv::vehicle::Data;
 
     #[test]
     fn a_body_is_that_of_its_inertia_and_mass_centre() {

@@ -1,10 +1,9 @@
 //! The cells of Tables 2 and 3: what is printed, how closely it is wanted, what a vehicle gives.
 
 use crate::published::Published;
-use ahv::dynamics::Vehicle;
-use ahv::linear::Linear;
-use ahv::trim::Trim;
-use ahv::vehicle::Configuration;
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::Trim;
+use ahv::vehicle::{Configuration, Vehicle};
 use anyhow::Result;
 use nalgebra::Complex;
 
@@ -128,7 +127,7 @@ pub fn short_period(linear: &Linear) -> Option<[f64; 2]> {
 pub fn values(vehicle: &Vehicle, trim: &Trim) -> Option<Vec<f64>> {
     let linear = Linear::sensed(vehicle, &trim.state, &trim.control);
     let (poles, zeros) = (Roots::new(linear.poles()), Roots::new(linear.zeros()));
-    let flexible = vehicle.modes.min(ahv::modes::FLEXIBLE);
+    let flexible = vehicle.modes.min(ahv::structure::FLEXIBLE);
     let [unstable, stable] = poles.outer()?;
     let phugoid = poles.pairs.first()?;
     let height = poles.real.iter().copied().min_by(|a, b| a.abs().total_cmp(&b.abs()))?;

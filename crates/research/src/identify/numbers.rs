@@ -1,6 +1,6 @@
 //! The numbers of a coefficient set that may move, how freely, and the file of the moved set.
 
-use ahv::params::{AeroData, PARKER2007};
+use ahv::data::{AeroData, PARKER2007};
 use anyhow::{Result, anyhow};
 use nalgebra::DVector;
 use std::fmt::Write;
@@ -187,7 +187,7 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ahv::params::DataFile;
+    use ahv::data::DataFile;
 
     #[test]
     fn a_set_that_does_not_move_is_the_published_one() {

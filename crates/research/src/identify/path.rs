@@ -4,12 +4,10 @@ use super::bodies::Bodies;
 use super::cells::{COLUMNS, Cell, cells, values};
 use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin, hardly_moves};
-use ahv::assembly::Chosen;
-use ahv::dynamics::Vehicle;
+use ahv::data::{AeroData, Data};
+use ahv::dynamics::trim::{Trim, trim};
 use ahv::flight::Parameters;
-use ahv::params::AeroData;
-use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Build, Data};
+use ahv::vehicle::{Build, Chosen, Vehicle};
 use anyhow::{Context, Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 

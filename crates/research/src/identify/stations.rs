@@ -3,8 +3,8 @@
 use super::fit::CONVERGED;
 use super::numbers::{GAMMA_OFFSET, MASS_CENTRE, MOVABLE};
 use super::path::{Model, Point};
-use ahv::assembly::Chosen;
-use ahv::params::AeroData;
+use ahv::data::AeroData;
+use ahv::vehicle::Chosen;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
@@ -56,7 +56,7 @@ impl Model {
             *centre = centre_m / FOOT;
             *gamma = chosen.sensed_as_printed(centre_m).build.stations.imu / FOOT;
         }
-        let of = |fit: &ahv::params::PolynomialData| fit.delta_e.as_ref().map(|slope| slope.value);
+        let of = |fit: &ahv::data::PolynomialData| fit.delta_e.as_ref().map(|slope| slope.value);
         let (Some(lift), Some(moment)) = (of(&set.lift), of(&set.moment)) else {
             return Err(anyhow!("an elevator without lift or moment"));
         };

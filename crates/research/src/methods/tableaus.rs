@@ -1,6 +1,6 @@
 //! Methods that lost: Runge-Kutta pairs to compare the vehicle's own methods with.
 
-use ahv::integrate::Tableau;
+use ahv::solve::Tableau;
 
 /// Dormand and Prince 5(4) (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd
 /// ed., table II.5.2), the method behind many masters and toolboxes.

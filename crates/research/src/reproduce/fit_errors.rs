@@ -1,6 +1,6 @@
 //! How well the curves of `shock_expansion` fit, read from the head of its data file.
 
-use ahv::params::SHOCK_EXPANSION;
+use ahv::data::SHOCK_EXPANSION;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 

@@ -4,7 +4,8 @@ use super::point::Point;
 use super::roots::{Name, Root, find};
 use super::sweep::Sweep;
 use super::tables::COLUMNS;
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::data::Data;
+use ahv::vehicle::{Build, Configuration};
 use anyhow::Result;
 use serde::Serialize;
 

@@ -2,8 +2,9 @@
 
 use super::point::Point;
 use super::tables::short_period;
-use ahv::beam::MassProperties;
-use ahv::vehicle::{Build, Configuration, Data, structure};
+use ahv::data::Data;
+use ahv::structure::MassProperties;
+use ahv::vehicle::{Build, Configuration, structure};
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 

@@ -1,13 +1,11 @@
 //! The vehicle in one configuration, trimmed and linearised.
 
 use super::roots::{BODY_ROWS, Metric, RIGID_ROWS, Root, name_poles, name_zeros, roots};
-use ahv::assembly::Chosen;
-use ahv::dynamics::{RIGID, Vehicle};
-use ahv::linear::{Linear, OUTPUT_STATES};
-use ahv::modes::{FLEXIBLE, SLOSH};
-use ahv::rigid_body::RigidMotion;
-use ahv::trim::{Trim, trim};
-use ahv::vehicle::{Body, Build, Data};
+use ahv::data::Data;
+use ahv::dynamics::linear::{Linear, OUTPUT_STATES};
+use ahv::dynamics::trim::{Trim, trim};
+use ahv::structure::{FLEXIBLE, RigidMotion, SLOSH};
+use ahv::vehicle::{Body, Build, Chosen, RIGID, Vehicle};
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 
@@ -144,7 +142,7 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
 mod tests {
     use super::*;
     use ahv::flight::Parameters;
-    use ahv::modes::Modes;
+    use ahv::structure::Modes;
     use ahv::vehicle::Configuration;
 
     #[test]

@@ -1,7 +1,7 @@
 //! Poles and zeros with what moves in them, and their names.
 
 use super::eigen::direction;
-use ahv::modes::FLEXIBLE;
+use ahv::structure::FLEXIBLE;
 use nalgebra::{Complex, DMatrix, DVector};
 use serde::{Serialize, Serializer};
 use std::fmt;

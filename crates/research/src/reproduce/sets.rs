@@ -1,7 +1,7 @@
 //! The coefficient sets that a report is about.
 
+use ahv::data::AeroSet;
 use ahv::flight::Setup;
-use ahv::vehicle::AeroSet;
 use anyhow::{Result, bail};
 use fmi_model::{Kind, table::find};
 

@@ -3,7 +3,8 @@
 use super::point::Point;
 use super::roots::{Name, Root};
 use super::track::{assurance, matches};
-use ahv::vehicle::{Build, Configuration, Data};
+use ahv::data::Data;
+use ahv::vehicle::{Build, Configuration};
 use anyhow::Result;
 use nalgebra::Complex;
 use serde::{Serialize, Serializer};

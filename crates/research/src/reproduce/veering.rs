@@ -1,7 +1,8 @@
 //! The structure alone while the sloshing frequency moves: which mode is slosh, which is beam.
 
-use ahv::modes::{MODES, Modes};
-use ahv::vehicle::{Build, Configuration, Data, structure};
+use ahv::data::Data;
+use ahv::structure::{MODES, Modes};
+use ahv::vehicle::{Build, Configuration, structure};
 use anyhow::Result;
 use serde::Serialize;
 

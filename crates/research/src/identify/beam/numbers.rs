@@ -2,8 +2,8 @@
 //!
 //! A point is in units of doubt: each coordinate is 0 in the prior and costs its square.
 
-use ahv::beam::Beam;
-use ahv::params::VehicleData;
+use ahv::data::VehicleData;
+use ahv::structure::Beam;
 use anyhow::{Context, Result, anyhow};
 use nalgebra::DVector;
 use toml_edit::{DocumentMut, Value};

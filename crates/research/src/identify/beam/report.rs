@@ -3,8 +3,8 @@
 use super::model::{DATA, DOUBT, FREQUENCIES, GROWTH, Model, Solution};
 use super::numbers::{COORDINATES, Scale, names, values, with_values};
 use crate::identify::fit::jacobian;
-use ahv::beam::Beam;
-use ahv::params::VehicleData;
+use ahv::data::VehicleData;
+use ahv::structure::Beam;
 use ahv_tool::table::{number, row, table};
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};

@@ -4,10 +4,10 @@ use super::model::{DATA, Model, printed};
 use super::numbers::{COORDINATES, STATIONS, names, rounded, values};
 use super::report::sensitivity;
 use crate::identify::fit::minimise;
+use ahv::data::{Data, DataFile, VehicleData};
 use ahv::flight::Parameters;
-use ahv::modes::{FLEXIBLE, Modes};
-use ahv::params::{DataFile, VehicleData};
-use ahv::vehicle::{Build, Configuration, Data, structure};
+use ahv::structure::{FLEXIBLE, Modes};
+use ahv::vehicle::{Build, Configuration, structure};
 use nalgebra::DVector;
 
 fn model() -> Model {
@@ -82,7 +82,7 @@ fn slopes_are_those_of_finite_changes() {
 #[test]
 fn a_file_that_is_already_right_stays_as_it_is() {
     let data = *Data::embedded().unwrap().vehicle;
-    let text = ahv::params::VEHICLE.text;
+    let text = ahv::data::VEHICLE.text;
     assert_eq!(values(&rounded(data.clone())), values(&data));
     let known: Vec<_> = names().iter().map(|_| "all digits".to_string()).collect();
     let again = super::file(text, &data, &known).unwrap();

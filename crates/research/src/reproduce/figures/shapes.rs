@@ -2,9 +2,8 @@
 
 use super::axes::{Axes, Plot, range, text};
 use super::marker::{self, look};
-use ahv::beam::{Beam, Oscillator};
-use ahv::modes::{FLEXIBLE, Modes};
-use ahv::params::VehicleData;
+use ahv::data::VehicleData;
+use ahv::structure::{Beam, FLEXIBLE, Modes, Oscillator};
 use ahv_tool::figure::{Area, COLOURS, Drawing, Drawn, FRAME};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

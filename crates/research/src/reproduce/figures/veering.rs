@@ -3,7 +3,7 @@
 use super::axes::{Axes, LEFT, range, text};
 use super::marker::{self, look};
 use crate::reproduce::veering::Veering;
-use ahv::modes::MODES;
+use ahv::structure::MODES;
 use ahv_tool::figure::{Area, Drawing, Drawn, FRAME};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};

@@ -1,0 +1,279 @@
+//! Where the elastic terms of eq. (4) come from: local incidence, integrated over the body.
+//!
+//! No set of flexible coefficients was found, so they follow from the published rigid ones and
+//! the mode shapes. The body is cut at the end of the fore-body into two strips of uniform load;
+//! the elevator is a third surface, where the published lift and moment per deflection put it.
+//! The loads of the two strips are those that give the published lift *and* moment at every
+//! incidence, so the rigid body stays exactly as published.
+//!
+//! A mode moves the body by its mean translation and rotation ([`RigidMotion`]), as sloshing liquid
+//! does, and bends it by the rest. The rotation and the rate of the translation change the incidence of
+//! the whole body, in the published fits. Bending changes the local incidence by
+//! eps(x) = -w'(x) - w-dot(x)/V (x aft, w up), and the pitch rate q of the body by q (x - x_cg)/V. Strip
+//! and elevator answer with their lift slope at one reference incidence.
+//!
+//! Eq. (4) has no terms in the pitch rate. The strips give them, in lift, drag, moment, thrust and modal
+//! forces alike; `pitch_rate` says which part of them counts: 0 as printed, 1 by strip theory.
+//!
+//! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
+//! the air, and a beam that feels one without the other seems to spin.
+
+use super::curve_fits::{
+    ANSWERS, Aero, DRAG, Elastic, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
+};
+use crate::data::Geometry;
+#[cfg(doc)]
+use crate::structure::RigidMotion;
+use crate::structure::{Beam, MODES, Modes, Point, Shape};
+
+/// A part of the body that answers to local incidence.
+struct Surface {
+    /// Lift coefficient of the undeformed body as a polynomial in the incidence.
+    load: [f64; 3],
+    /// Its slope at the reference incidence, per rad.
+    slope: f64,
+    /// Averages of the mode shapes.
+    mean: Means,
+}
+
+/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products.
+#[derive(Debug, Clone, Copy, Default)]
+struct Means {
+    x: f64,
+    xx: f64,
+    phi: [f64; MODES],
+    slope: [f64; MODES],
+    x_phi: [f64; MODES],
+    x_slope: [f64; MODES],
+    phi_phi: [[f64; MODES]; MODES],
+    phi_slope: [[f64; MODES]; MODES],
+}
+
+impl Means {
+    /// Averages over places whose weights add up to `total`; x from the nose.
+    fn over(points: impl Iterator<Item = Point>, total: f64, shapes: &[Shape]) -> Self {
+        let mut mean = Self::default();
+        let (mut phi, mut slope) = ([0.0; MODES], [0.0; MODES]);
+        for point in points {
+            let (weight, x) = (point.weight / total, point.x);
+            for (i, shape) in shapes.iter().enumerate() {
+                phi[i] = shape.w_at(&point);
+                slope[i] = shape.slope_at(&point);
+            }
+            mean.x += weight * x;
+            mean.xx += weight * x * x;
+            for i in 0..shapes.len() {
+                mean.phi[i] += weight * phi[i];
+                mean.slope[i] += weight * slope[i];
+                mean.x_phi[i] += weight * x * phi[i];
+                mean.x_slope[i] += weight * x * slope[i];
+                for k in 0..shapes.len() {
+                    mean.phi_phi[i][k] += weight * phi[i] * phi[k];
+                    mean.phi_slope[i][k] += weight * phi[i] * slope[k];
+                }
+            }
+        }
+        mean
+    }
+
+    /// The same with x from `centre`.
+    fn about(mut self, centre: f64) -> Self {
+        self.xx -= centre * (2.0 * self.x - centre);
+        self.x -= centre;
+        for i in 0..MODES {
+            self.x_phi[i] -= centre * self.phi[i];
+            self.x_slope[i] -= centre * self.slope[i];
+        }
+        self
+    }
+}
+
+/// A field of incidence over a surface: its averages by itself, times x and times each shape.
+#[derive(Debug, Clone, Copy, Default)]
+struct Field {
+    one: f64,
+    x: f64,
+    phi: PerMode,
+}
+
+impl Field {
+    fn plus(self, factor: f64, other: Self) -> Self {
+        Self {
+            one: self.one + factor * other.one,
+            x: self.x + factor * other.x,
+            phi: std::array::from_fn(|i| self.phi[i] + factor * other.phi[i]),
+        }
+    }
+}
+
+impl Means {
+    /// The field that is 1 everywhere.
+    fn unit(&self) -> Field {
+        Field { one: 1.0, x: self.x, phi: self.phi }
+    }
+
+    /// x.
+    fn station(&self) -> Field {
+        Field { one: self.x, x: self.xx, phi: self.x_phi }
+    }
+
+    /// phi_k.
+    fn deflection(&self, k: usize) -> Field {
+        Field { one: self.phi[k], x: self.x_phi[k], phi: self.phi_phi.map(|row| row[k]) }
+    }
+
+    /// phi_k'.
+    fn slope(&self, k: usize) -> Field {
+        Field { one: self.slope[k], x: self.x_slope[k], phi: self.phi_slope.map(|row| row[k]) }
+    }
+}
+
+/// The two strips of the body with their averages: all that takes an integration over the beam.
+#[derive(Debug, Clone)]
+pub struct Strips {
+    fore: Means,
+    aft: Means,
+    /// Middle of the nacelle.
+    engine: Point,
+    /// Mean translation and rotation of the body in each mode.
+    moved: [[f64; 2]; MODES],
+    /// Where the translation is, m from the nose.
+    body_centre: f64,
+}
+
+impl Strips {
+    /// Cuts the beam at the end of the fore-body.
+    pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
+        let cut = geometry.fore_body_m.value;
+        let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
+        let motion = beam.rigid_motion();
+        let mut moved = [[0.0; 2]; MODES];
+        for (part, shape) in moved.iter_mut().zip(&modes.shape) {
+            *part = motion.part(&shape.w, &shape.slope);
+        }
+        Self {
+            fore: strip(0.0, cut),
+            aft: strip(cut, beam.length_m()),
+            engine: beam.point(cut + 0.5 * geometry.nacelle_m.value),
+            moved,
+            body_centre: motion.centre_m,
+        }
+    }
+}
+
+/// The two strips and the elevator.
+fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
+    let at = aero.elastic_delta_e;
+    let [elevator_lift, elevator_moment] = [LIFT, MOMENT]
+        .map(|row| aero.fits.row(row))
+        .map(|fit| fit.delta_e[0] + 3.0 * fit.delta_e[2] * at * at);
+    // Lift and nose-up moment of the body without the elevator, per power of the incidence.
+    let body: [[f64; 2]; 3] = std::array::from_fn(|power| {
+        let own = f64::from(power == 1);
+        [
+            aero.fits.alpha[power][LIFT] - own * elevator_lift,
+            aero.fits.alpha[power][MOMENT] - own * elevator_moment,
+        ]
+    });
+    let [fore, aft] = [strips.fore, strips.aft].map(|strip| strip.about(aero.moment_centre));
+    // c_1 + c_2 = C_L and -(x_1 c_1 + x_2 c_2) = chord C_M.
+    let split = body.map(|[lift, moment]| {
+        let first = (lift * aft.x + moment * aero.chord) / (aft.x - fore.x);
+        [first, lift - first]
+    });
+    let mut place = beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
+    place.weight = 1.0;
+    let elevator = Means::over([place].into_iter(), 1.0, shapes).about(aero.moment_centre);
+
+    let surface = |load: [f64; 3], mean: Means| Surface {
+        load,
+        slope: load[1] + 2.0 * load[2] * aero.elastic_alpha,
+        mean,
+    };
+    [
+        surface(split.map(|[first, _]| first), fore),
+        surface(split.map(|[_, second]| second), aft),
+        surface([0.0, elevator_lift, 0.0], elevator),
+    ]
+}
+
+/// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
+fn plume_station(aero: &Aero) -> Option<f64> {
+    let [lift, moment] = [LIFT, MOMENT].map(|row| aero.fits_phi.row(row).body(aero.elastic_alpha));
+    // The divisor is chosen: a compiler may divide before it asks.
+    let divisor = if lift == 0.0 { 1.0 } else { lift };
+    (lift != 0.0).then_some(aero.moment_centre - aero.chord * moment / divisor)
+}
+
+/// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
+///
+/// `mass_centre` is its station from the nose (m), `pitch_rate` the part of the terms in the pitch rate
+/// that counts.
+pub fn derive(
+    aero: &Aero,
+    beam: &Beam,
+    modes: &Modes,
+    strips: &Strips,
+    mass_centre: f64,
+    pitch_rate: f64,
+) -> Elastic {
+    let centre = beam.point(mass_centre);
+    let plume = plume_station(aero).map(|x| beam.point(x.clamp(0.0, beam.length_m())));
+    let surfaces = surfaces(aero, beam, &modes.shape, strips);
+    let [drag_slope, lift_slope] =
+        [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
+    let per_mass: PerMode = std::array::from_fn(|i| modes.per_modal_mass(i));
+    // What the air answers to a field of incidence.
+    let answer = |field: &dyn Fn(&Means) -> Field| {
+        let start = Field::default();
+        let sum = surfaces.iter().fold(start, |sum, s| sum.plus(s.slope, field(&s.mean)));
+        let mut rows = [0.0; ANSWERS];
+        rows[LIFT] = sum.one;
+        // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
+        rows[DRAG] = drag_slope / lift_slope * sum.one;
+        rows[MOMENT] = -sum.x / aero.chord;
+        // The engine swallows what the fore-body has turned.
+        rows[INFLOW] = field(&surfaces[0].mean).one;
+        for i in 0..MODES {
+            rows[FORCE + i] = sum.phi[i] * per_mass[i];
+        }
+        rows
+    };
+
+    let mut elastic = Elastic::default();
+    let shift = mass_centre - aero.moment_centre;
+    elastic.pitch_rate =
+        answer(&|m| m.station().plus(-shift, m.unit())).map(|row| pitch_rate * row);
+    for k in 0..modes.shape.len() {
+        let [translation, rotation] = strips.moved[k];
+        // Of the rigid part of the mode, by the distance from the moment centre.
+        let at_centre = translation + rotation * (aero.moment_centre - strips.body_centre);
+        let bent = answer(&|m| m.slope(k).plus(-rotation, m.unit()));
+        let bending =
+            answer(&|m| m.deflection(k).plus(-at_centre, m.unit()).plus(-rotation, m.station()));
+        let [per_eta, per_rate] = &mut elastic.per[k];
+        *per_eta = bent.map(|row| -aero.elastic_scale * row);
+        per_eta[INCIDENCE] = -rotation;
+        *per_rate = std::array::from_fn(|row| {
+            -aero.elastic_scale * bending[row] - rotation * elastic.pitch_rate[row]
+        });
+        per_rate[INCIDENCE] = -(at_centre + rotation * shift);
+    }
+    for i in 0..modes.shape.len() {
+        let per_mass = per_mass[i];
+        let load = |power: usize| {
+            surfaces.iter().map(|s| s.load[power] * s.mean.phi[i]).sum::<f64>() * per_mass
+        };
+        let shape = &modes.shape[i];
+        let force = &mut elastic.force;
+        for (power, alpha) in force.alpha.iter_mut().enumerate() {
+            alpha[i] = load(power);
+        }
+        force.delta_e[i] = aero.fits.delta_e[0][LIFT] * surfaces[2].mean.phi[i] * per_mass;
+        force.thrust_across[i] = shape.w_at(&centre) * per_mass;
+        force.plume[i] = plume.map_or(0.0, |place| shape.w_at(&place) * per_mass);
+        // Nose up and w up: the couple works on a falling slope.
+        force.thrust_couple[i] = -aero.thrust_arm * shape.slope_at(&strips.engine) * per_mass;
+    }
+    elastic
+}

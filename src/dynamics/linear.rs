@@ -1,0 +1,108 @@
+//! Linearisation, poles and transmission zeros (Tables 2 and 3).
+
+use crate::solve::Dual;
+use crate::vehicle::{CONTROLS, Control, GUSTS, Gust, STATES, State, Vehicle};
+use nalgebra::{Complex, DMatrix, linalg::balancing};
+
+/// x' = A x + B u, y = C x; u = [delta_e, phi], y = [V, a flight-path angle]. Only the states in use.
+#[derive(Debug, Clone)]
+pub struct Linear {
+    /// df/dx, n x n.
+    pub a: DMatrix<f64>,
+    /// df/du, n x 2.
+    pub b: DMatrix<f64>,
+    /// dy/dx, 2 x n.
+    pub c: DMatrix<f64>,
+}
+
+/// Rows of the state that are V and gamma.
+pub const OUTPUT_STATES: [usize; 2] = [0, 2];
+
+/// A direction from a point, as dual numbers.
+fn dual<const N: usize>([value, direction]: [&[f64; N]; 2]) -> [Dual<1>; N] {
+    std::array::from_fn(|i| Dual { re: value[i], eps: [direction[i]] })
+}
+
+const STILL: Gust<Dual<1>> = [Dual { re: 0.0, eps: [0.0] }; GUSTS];
+
+/// Time derivatives in still air and how they change along a direction, of [value, direction]; exact by
+/// dual numbers. One direction at a time: many at once are quicker, but double the library.
+pub fn along(vehicle: &Vehicle, x: [&State; 2], u: [&Control; 2]) -> State<Dual<1>> {
+    vehicle.derivatives(&dual(x), &dual(u), STILL)
+}
+
+impl Linear {
+    /// With the outputs V and gamma; exact derivatives by dual numbers.
+    pub fn new(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
+        let mut linear = Self::sensed(vehicle, state, control);
+        linear.c = DMatrix::from_fn(OUTPUT_STATES.len(), linear.a.nrows(), |row, column| {
+            f64::from(OUTPUT_STATES[row] == column)
+        });
+        linear
+    }
+
+    /// With the outputs V and gamma at the inertial measurement unit. Neither answers the controls at
+    /// once, so D is zero.
+    pub fn sensed(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
+        let n = vehicle.states();
+        let changes = |direction: usize| {
+            let dx = std::array::from_fn(|i| f64::from(i == direction));
+            let du = std::array::from_fn(|i| f64::from(STATES + i == direction));
+            let (rates, outputs) = vehicle.both(&dual([state, &dx]), &dual([control, &du]), STILL);
+            (rates.map(|rate| rate.eps[0]), outputs.imu.gamma.eps[0])
+        };
+        let by_state: Vec<(State, f64)> = (0..n).map(changes).collect();
+        let by_control: Vec<(State, f64)> = (STATES..STATES + CONTROLS).map(changes).collect();
+        let gamma = |column: usize| by_state[column].1;
+        Self {
+            a: DMatrix::from_fn(n, n, |row, column| by_state[column].0[row]),
+            b: DMatrix::from_fn(n, CONTROLS, |row, column| by_control[column].0[row]),
+            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| match row {
+                0 => f64::from(column == 0),
+                _ => gamma(column),
+            }),
+        }
+    }
+
+    /// Eigenvalues of A, rad/s, by frequency.
+    pub fn poles(&self) -> Vec<Complex<f64>> {
+        eigenvalues(self.a.clone())
+    }
+
+    /// Transmission zeros from u to y, rad/s, by frequency: n - 2 of them, or none if the controls do
+    /// not reach the rates of both outputs.
+    pub fn zeros(&self) -> Vec<Complex<f64>> {
+        self.zero_dynamics().map_or_else(Vec::new, eigenvalues)
+    }
+
+    /// Motion of the states while both outputs are held, in all states but V and gamma; none if the
+    /// controls do not reach the rates of both outputs, or the outputs do not tell V and gamma. Its
+    /// eigenvalues are the zeros, its eigenvectors their directions.
+    ///
+    /// The rates of the outputs answer the controls at once (C B is invertible), so holding y at zero
+    /// fixes u = -(C B)^-1 C A x. With y = 0 the states V and gamma follow from the others, z:
+    /// x = N z with C N = 0 (Isidori, Nonlinear Control Systems, 3rd ed., 4.3).
+    pub fn zero_dynamics(&self) -> Option<DMatrix<f64>> {
+        let hidden: Vec<usize> =
+            (0..self.a.nrows()).filter(|row| !OUTPUT_STATES.contains(row)).collect();
+        let c_z = self.c.select_columns(&hidden);
+        let follow = self.c.select_columns(&OUTPUT_STATES).lu().solve(&c_z)?;
+        let mut held = DMatrix::zeros(self.a.nrows(), hidden.len());
+        for (column, row) in hidden.iter().enumerate() {
+            held[(*row, column)] = 1.0;
+        }
+        for (row, state) in OUTPUT_STATES.into_iter().enumerate() {
+            held.row_mut(state).copy_from(&-follow.row(row));
+        }
+        let moved = &self.a * held;
+        let control = (&self.c * &self.b).lu().solve(&(&self.c * &moved))?;
+        Some(moved.select_rows(&hidden) - self.b.select_rows(&hidden) * control)
+    }
+}
+
+fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
+    balancing::balance_parlett_reinsch(&mut matrix);
+    let mut values: Vec<_> = matrix.complex_eigenvalues().iter().copied().collect();
+    values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    values
+}

@@ -1,0 +1,54 @@
+//! Eq. (3) in known air, at one fuel level.
+
+use super::loads::Met;
+use super::modal;
+use crate::solve::{Over, Scalar};
+use crate::structure::{FLEXIBLE, MODES};
+use crate::vehicle::{Airframe, RIGID, STATES, State, Vehicle};
+
+impl Vehicle {
+    /// Eq. (3) in known air, at one fuel level.
+    #[inline(always)]
+    pub(super) fn rates<C: Scalar, S: Scalar + Over<C>>(
+        &self,
+        airframe: &Airframe<C>,
+        met: &Met<S>,
+        x: &State<S>,
+    ) -> State<S> {
+        let Met { stream, loads, .. } = met;
+        let [speed, altitude, gamma, _, q, ..] = *x;
+        let (sin_alpha, cos_alpha) = stream.body;
+        let (sin_turn, cos_turn) = stream.turn;
+        let (gravity, distance) = self.atmosphere.gravity(altitude);
+        let (sin_gamma, cos_gamma) = gamma.sin_cos();
+        let per_speed = S::constant(1.0) / speed;
+        let per_mass = C::constant(1.0) / airframe.mass;
+
+        let lift = loads.lift * cos_turn + loads.drag * sin_turn;
+        let drag = loads.drag * cos_turn - loads.lift * sin_turn;
+        let gamma_dot = (lift + loads.thrust * sin_alpha) * per_speed * per_mass
+            - (gravity * per_speed - speed / distance) * cos_gamma;
+
+        let mut rates = [S::constant(0.0); STATES];
+        rates[0] = (loads.thrust * cos_alpha - drag) * per_mass - gravity * sin_gamma;
+        rates[1] = speed * sin_gamma;
+        rates[2] = gamma_dot;
+        rates[3] = q - gamma_dot;
+        rates[4] = loads.moment * (C::constant(1.0) / airframe.inertia);
+
+        if self.modes == 0 {
+            return rates;
+        }
+        let modal = modal::accelerations(airframe, met, x);
+        for (i, acceleration) in modal.into_iter().enumerate() {
+            let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
+            rates[eta] = x[eta_dot];
+            rates[eta_dot] = acceleration;
+        }
+        // Modes that a configuration does not have stay where they are, whatever their rates say.
+        if self.modes <= FLEXIBLE {
+            rates[RIGID + 2 * FLEXIBLE..RIGID + 2 * MODES].fill(S::constant(0.0));
+        }
+        rates
+    }
+}

@@ -1,0 +1,151 @@
+//! Trim: the controls and static deflections of steady flight.
+
+use super::linear::along;
+use crate::error::Error;
+use crate::short::short;
+use crate::solve::Dual;
+use crate::structure::MODES;
+use crate::vehicle::{Condition, Control, FUEL, RIGID, STATES, State, Vehicle};
+use nalgebra::{SMatrix, SVector};
+
+/// Steady flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Trim {
+    /// State with all accelerations zero.
+    pub state: State,
+    /// Controls that hold it.
+    pub control: Control,
+}
+
+/// alpha, delta_e, phi and the modal coordinates.
+const UNKNOWNS: usize = 3 + MODES;
+/// Newton converges in about five steps; the rest guards against cycling at rounding level.
+const MAX_STEPS: usize = 40;
+/// Scaled residual (accelerations over those of free fall) that counts as steady. Rounding leaves
+/// about 1e-15.
+const STEADY: f64 = 1e-11;
+/// Size of an unknown, rad or m, at which Newton's method has lost its way.
+const LOST: f64 = 1e6;
+/// Rows of the state derivative that must vanish, with their size in a free fall (m/s^2, rad/s,
+/// rad/s^2): V, gamma, q.
+const BALANCES: [(usize, f64); 3] = [(0, 10.0), (2, 0.004), (4, 1.0)];
+
+type Vector = SVector<f64, UNKNOWNS>;
+
+/// A state and its controls, from the unknowns and from what is known of the state.
+fn insert(known: &State, z: &Vector) -> (State, Control) {
+    let mut x = *known;
+    x[3] = z[0];
+    for i in 0..MODES {
+        x[RIGID + 2 * i] = z[3 + i];
+    }
+    (x, [z[1], z[2]])
+}
+
+/// Scaled residual of the trim equations and its exact Jacobian.
+fn residual(
+    vehicle: &Vehicle,
+    start: &State,
+    z: &Vector,
+) -> (Vector, SMatrix<f64, UNKNOWNS, UNKNOWNS>) {
+    let (x, u) = insert(start, z);
+    let (mut value, mut jacobian) = (Vector::zeros(), SMatrix::identity());
+    for column in 0..UNKNOWNS {
+        let (dx, du) = insert(&[0.0; STATES], &Vector::from_fn(|i, _| f64::from(i == column)));
+        let rates = along(vehicle, [&x, &dx], [&u, &du]);
+        let mut put = |row: usize, rate: Dual<1>, scale: f64| {
+            value[row] = rate.re / scale;
+            jacobian[(row, column)] = rate.eps[0] / scale;
+        };
+        for (row, (state, scale)) in BALANCES.into_iter().enumerate() {
+            put(row, rates[state], scale);
+        }
+        for i in 0..vehicle.modes {
+            put(3 + i, rates[RIGID + 2 * i + 1], vehicle.omega[i] * vehicle.omega[i]);
+        }
+    }
+    (value, jacobian)
+}
+
+/// Steady flight at a condition, by Newton's method with exact derivatives.
+///
+/// # Errors
+/// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
+/// of actuators and curve fits holds the condition; [`Error::NotFinite`] if the equations have no value.
+pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
+    let mut start = condition.start(&vehicle.atmosphere);
+    start[FUEL] = vehicle.fuel;
+    let mut z = Vector::zeros();
+    let mut best = f64::INFINITY;
+    let mut solution = z;
+    for step in 0..MAX_STEPS {
+        let (value, jacobian) = residual(vehicle, &start, &z);
+        if step == 0 && !value.iter().all(|rate| rate.is_finite()) {
+            let Condition { mach, altitude: altitude_m, .. } = *condition;
+            return Err(Error::NotFinite { mach, altitude_m });
+        }
+        let size = value.amax();
+        // At rounding level the residual stops falling: that is as steady as numbers can say.
+        if !size.is_finite() || (best < STEADY && size >= best) {
+            break;
+        }
+        if size < best {
+            best = size;
+            solution = z;
+        }
+        let Some(step) = jacobian.lu().solve(&value) else { break };
+        z -= step;
+        if z.amax() >= LOST {
+            break;
+        }
+    }
+
+    let impossible = |limit: String, residual: f64| Error::Trim {
+        mach: condition.mach,
+        altitude_m: condition.altitude,
+        gamma_rad: condition.gamma,
+        residual,
+        limit,
+    };
+    let envelope = &vehicle.aero.envelope;
+    let conditions = [
+        ("mach0", condition.mach, envelope.mach, ""),
+        ("altitude0", condition.altitude, envelope.altitude, " m"),
+    ];
+    let mut hit = conditions.into_iter().find_map(|(name, value, [min, max], unit)| {
+        (!(min..=max).contains(&value))
+            .then(|| format!("{name} = {}{unit} is beyond [{min}, {max}]", short(value)))
+    });
+    let [elevator, fuel] = vehicle.limits;
+    let unknowns = [
+        ("alpha", envelope.alpha, " rad"),
+        ("delta_e", [-elevator, elevator], " rad"),
+        ("phi", [0.0, fuel], ""),
+    ];
+    let steady = best < STEADY;
+    let mut limited = solution;
+    for (i, (name, [min, max], unit)) in unknowns.into_iter().enumerate() {
+        if !(min..=max).contains(&solution[i]) {
+            limited[i] = solution[i].clamp(min, max);
+            // Where the search did not end, its last point says nothing.
+            if steady && hit.is_none() {
+                let value = solution[i];
+                hit = Some(format!("{name} = {value:.4}{unit} is beyond [{min:.4}, {max:.4}]"));
+            }
+        }
+    }
+    if hit.is_none() && !steady {
+        hit = Some("the equations have no solution near steady flight".into());
+    }
+    if let Some(limit) = hit {
+        let (value, _) = residual(vehicle, &start, &limited);
+        return Err(impossible(limit, value.amax()));
+    }
+
+    let mut state = start;
+    state[3] = solution[0];
+    for i in 0..vehicle.modes {
+        state[RIGID + 2 * i] = solution[3 + i];
+    }
+    Ok(Trim { state, control: [solution[1], solution[2]] })
+}

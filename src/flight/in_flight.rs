@@ -1,0 +1,195 @@
+//! In flight: inputs, states and outputs, step by step.
+
+use super::controlled_vehicle::{ControlledVehicle, in_effect};
+use super::envelope_error::envelope_error;
+use super::inputs::Inputs;
+use super::method::Method;
+use crate::air::Limited;
+use crate::dynamics::trim::Trim;
+use crate::dynamics::{Outputs, numberless};
+use crate::error::Error;
+use crate::solve::{Arrival, DOP853, Integrator, MOST_TRIALS, System};
+use crate::vehicle::{CONTROLS, Control, Gust, State, Vehicle};
+
+/// Outputs, derivatives and controls at an instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Sample {
+    /// Outputs.
+    pub outputs: Outputs,
+    /// Time derivatives of the states.
+    pub derivatives: State,
+    /// Controls in effect.
+    pub control: Control,
+}
+
+/// A flight, from [`Setup::start`](super::Setup::start). A failed call leaves it as it was, but for [`Flight::advance`], which
+/// stops at the last valid instant.
+#[derive(Debug, Clone)]
+pub struct Flight {
+    pub(super) vehicle: Box<Vehicle>,
+    pub(super) trim: Trim,
+    /// What the inputs are added to: the trim where they are deviations.
+    pub(super) base: Control,
+    /// Integrates between the master's instants.
+    pub(super) method: Box<Method>,
+    pub(super) inputs: Inputs,
+    pub(super) time: f64,
+    pub(super) integrator: Integrator,
+    pub(super) state: State,
+    /// Derivatives at the current state and controls, if known.
+    pub(super) slope: Option<State>,
+    /// What was last evaluated, if it still holds.
+    pub(super) sample: Option<Sample>,
+    /// Whether it was said that a control is beyond its limit.
+    pub(super) limit_said: [bool; CONTROLS],
+}
+
+impl Flight {
+    /// Inputs as they were set.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    /// Sets one input: 0 elevator (rad), 1 fuel ratio, 2 vertical and 3 horizontal gust (m/s).
+    pub fn set_input(&mut self, index: usize, value: f64) {
+        if self.inputs.values[index] != value {
+            self.slope = None;
+            self.sample = None;
+        }
+        self.inputs.set(index, value);
+    }
+
+    /// Sets a derivative of one input for the next step; orders from 1 to [`INPUT_ORDER`](super::INPUT_ORDER).
+    pub fn set_input_derivative(&mut self, index: usize, order: usize, value: f64) {
+        self.inputs.set_derivative(index, order, value);
+    }
+
+    /// Time, s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// State.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Moves to another instant, as an integrator from outside does.
+    pub fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Puts the flight into another state, as an integrator from outside does.
+    pub fn set_state(&mut self, state: &State) {
+        self.state = *state;
+        self.slope = None;
+        self.sample = None;
+    }
+
+    /// Whether the curve fits hold here, with fuel if it burns.
+    ///
+    /// # Errors
+    /// [`Error::Envelope`] or [`Error::Fuel`] if they do not; those of [`Flight::evaluate`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.check_numbers()?;
+        let (control, gust) = self.control();
+        if self.vehicle.holds(&self.state, &control, gust) {
+            return Ok(());
+        }
+        let Self { vehicle, base, state, inputs, .. } = self;
+        Err(envelope_error(vehicle, base, state, inputs, self.time))
+    }
+
+    /// Whether the equations have numbers here.
+    pub(super) fn check_numbers(&self) -> Result<(), Error> {
+        numberless(&self.state).map_or(Ok(()), |Limited { variable, value, limits: [min, max] }| {
+            Err(Error::Numberless { variable, value, min, max })
+        })
+    }
+
+    /// Vehicle.
+    pub fn vehicle(&self) -> &Vehicle {
+        &self.vehicle
+    }
+
+    /// Trim; without trim, the start values with zero controls.
+    pub fn trim(&self) -> &Trim {
+        &self.trim
+    }
+
+    /// Controls in effect, cut to the actuators' limits, and gust.
+    pub(super) fn control(&self) -> (Control, Gust) {
+        in_effect(&self.vehicle, &self.base, &self.inputs.values)
+    }
+
+    /// Outputs and derivatives at the current instant, computed once per state and input.
+    ///
+    /// # Errors
+    /// [`Error::Numberless`] if an integrator from outside went too far.
+    pub fn evaluate(&mut self) -> Result<&Sample, Error> {
+        if self.sample.is_none() {
+            self.check_numbers()?;
+        }
+        let Self { vehicle, base, inputs, state, slope, sample, .. } = self;
+        Ok(sample.get_or_insert_with(|| {
+            let (control, gust) = in_effect(vehicle, base, &inputs.values);
+            let (derivatives, outputs) = match *slope {
+                Some(slope) => (slope, vehicle.outputs(state, &control, gust, &slope)),
+                None => vehicle.both(state, &control, gust),
+            };
+            *slope = Some(derivatives);
+            Sample { outputs, derivatives, control }
+        }))
+    }
+
+    /// Flies until `end` (s), exactly. Inputs are constant, or follow the derivatives that were given
+    /// for this step.
+    ///
+    /// # Errors
+    /// [`Error::Envelope`] on leaving the region where the curve fits hold, [`Error::Fuel`] when the
+    /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if
+    /// the tolerance cannot be held, [`Error::TooLong`] if the interval takes too many steps.
+    pub fn advance(&mut self, end: f64) -> Result<(), Error> {
+        let Self { vehicle, base, method, state, inputs, .. } = self;
+        let controlled = ControlledVehicle {
+            vehicle,
+            base: *base,
+            inputs,
+            held: (!inputs.moving()).then(|| in_effect(vehicle, base, &inputs.values)),
+        };
+        let length = end - self.time;
+        // Counted from here, so that a late start costs no digits.
+        let interval = [0.0, length];
+        // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
+        let (integrator, slope) = (&mut self.integrator, &mut self.slope);
+        let arrival = if controlled.steady() {
+            integrator.advance(&mut **method, &controlled, state, interval, slope)
+        } else {
+            integrator.advance(&mut &DOP853, &controlled, state, interval, slope)
+        };
+        let flown = match arrival {
+            Arrival::Complete => length,
+            Arrival::Left(flown) | Arrival::Stuck(flown) | Arrival::Long(flown) => flown,
+        };
+        *inputs = inputs.after(flown);
+        self.sample = None;
+        match arrival {
+            Arrival::Complete => {
+                self.time = end;
+                Ok(())
+            }
+            Arrival::Left(flown) => {
+                self.time += flown;
+                Err(envelope_error(vehicle, base, state, inputs, self.time))
+            }
+            Arrival::Stuck(flown) => {
+                self.time += flown;
+                Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
+            }
+            Arrival::Long(flown) => {
+                self.time += flown;
+                Err(Error::TooLong { asked_s: length, trials: MOST_TRIALS, time_s: self.time })
+            }
+        }
+    }
+}

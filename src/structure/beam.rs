@@ -1,0 +1,255 @@
+//! The free-free beam: equal Euler-Bernoulli elements with sloshing masses hung on them. Eqs
+//! (1)-(2) of the paper.
+//!
+//! A displacement is a slice `[w_0, theta_0, w_1, theta_1, ...]` over the nodes, nose first:
+//! deflection in m, up positive, and slope `dw/dx` in rad; a load is `[force, moment, ...]`, N/m
+//! and N m/m, in the same order. Everything is per metre of vehicle width.
+//!
+//! The stiffness matrix K is never assembled: with 500 cubic elements its condition number is
+//! near 1e13, and a factorisation loses the digits that the low modes live on. A beam without
+//! supports is statically determinate, so [`Beam::deflect`] integrates shear, moment, curvature
+//! and slope from the nose instead. Between loaded nodes the deflection *is* a cubic: this is the
+//! exact inverse of K on self-equilibrated loads, at O(n) and to almost the last bit.
+
+use super::moments::Moments;
+use super::tanks::{SloshingTank, full_mass_kg_per_m, propellant_kg_per_m};
+use crate::data::VehicleData;
+
+/// Sloshing mass on a spring and a damper below a node; it moves vertically.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oscillator {
+    /// Node it hangs on.
+    pub node: usize,
+    /// Mass, kg/m.
+    pub mass: f64,
+    /// Spring, N/m per metre of width.
+    pub stiffness: f64,
+    /// Damper, N s/m per metre of width.
+    pub damping: f64,
+}
+
+/// Mass, its centre and its inertia, per metre of width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassProperties {
+    /// kg/m.
+    pub mass: f64,
+    /// Station of the mass centre, m from the nose.
+    pub centre_m: f64,
+    /// About the mass centre, kg m^2 per metre of width.
+    pub inertia: f64,
+}
+
+/// A free-free beam of equal elements, each with constant stiffness and density.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beam {
+    /// Length of an element, m.
+    pub element_m: f64,
+    /// Bending stiffness EI of each element, N m^2 per metre of width.
+    pub stiffness: Vec<f64>,
+    /// Mass per length of each element, kg/m^2.
+    pub density: Vec<f64>,
+    /// Of the rigid body, beyond those of the density.
+    pub moments: Moments,
+}
+
+impl Beam {
+    /// All mass on board spread like that of the full vehicle: configuration `EvenMassBeam`.
+    pub fn even(data: &VehicleData, fuel_fraction: f64) -> Self {
+        let dry = 1.0 - data.mass.propellant_fraction.value;
+        let scale = dry + propellant_kg_per_m(data, fuel_fraction) / full_mass_kg_per_m(data);
+        Self::with_structure(data, scale)
+    }
+
+    /// Structure and frozen liquid; the sloshing masses come on top, see [`Beam::attach`]:
+    /// configuration `SloshBeam`.
+    pub fn slosh(data: &VehicleData, tanks: &[SloshingTank; 2]) -> Self {
+        let mut beam = Self::with_structure(data, 1.0 - data.mass.propellant_fraction.value);
+        for tank in tanks {
+            let (centre, half) = (tank.centre_m, 0.5 * tank.length_m);
+            beam.spread(tank.frozen_mass / tank.length_m, centre - half, centre + half);
+        }
+        beam
+    }
+
+    fn with_structure(data: &VehicleData, scale: f64) -> Self {
+        let count = data.beam.elements.value as usize;
+        let element_m = data.geometry.length_m.value / count as f64;
+        let (stations, values) =
+            (&data.beam.stiffness_station_m.value, &data.beam.stiffness_n_m2_per_m.value);
+        let stiffness = (0..count)
+            .map(|e| interpolate(stations, values, (e as f64 + 0.5) * element_m))
+            .collect();
+        let density = vec![0.0; count];
+        let mut beam = Self { element_m, stiffness, density, moments: Moments::default() };
+        let (mass, joint) = (&data.mass, data.mass.beam_joint_m.value);
+        beam.spread(scale * mass.fore_beam_kg_per_m2.value, f64::NEG_INFINITY, joint);
+        beam.spread(scale * mass.aft_beam_kg_per_m2.value, joint, f64::INFINITY);
+        beam
+    }
+
+    /// Adds a uniform density over `[from, to]`; an element in part inside gets its average.
+    fn spread(&mut self, density: f64, from: f64, to: f64) {
+        for (e, total) in self.density.iter_mut().enumerate() {
+            let start = e as f64 * self.element_m;
+            let end = (e + 1) as f64 * self.element_m;
+            let overlap = (to.min(end) - from.max(start)).max(0.0);
+            *total += density * overlap / (end - start);
+        }
+    }
+
+    /// Number of elements; there is one node more.
+    pub fn elements(&self) -> usize {
+        self.density.len()
+    }
+
+    /// Length of a displacement or load: two entries per node.
+    pub fn unknowns(&self) -> usize {
+        2 * (self.elements() + 1)
+    }
+
+    /// Length of the beam, m.
+    pub fn length_m(&self) -> f64 {
+        self.elements() as f64 * self.element_m
+    }
+
+    /// Station of a node, m from the nose.
+    pub fn station(&self, node: usize) -> f64 {
+        node as f64 * self.element_m
+    }
+
+    /// The node nearest to a station.
+    pub fn nearest_node(&self, station_m: f64) -> usize {
+        ((station_m / self.element_m).round() as usize).min(self.elements())
+    }
+
+    /// The sloshing mass of a tank, on the node nearest to its middle.
+    pub fn attach(&self, tank: &SloshingTank) -> Oscillator {
+        Oscillator {
+            node: self.nearest_node(tank.centre_m),
+            mass: tank.sloshing_mass,
+            stiffness: tank.stiffness,
+            damping: tank.damping,
+        }
+    }
+
+    /// Mass, mass centre and inertia of beam and sloshing masses, these as points at their nodes: the
+    /// rigid-body entries of the mass matrix.
+    pub fn mass_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
+        let own = self.density_properties(oscillators);
+        let (shift, off) =
+            (self.moments.first / own.mass, own.centre_m - self.moments.motion.centre_m);
+        let moved = own.mass * ((off + shift) * (off + shift) - off * off);
+        MassProperties {
+            mass: own.mass,
+            centre_m: own.centre_m + shift,
+            inertia: own.inertia + self.moments.second - moved,
+        }
+    }
+
+    /// [`Beam::mass_properties`] by density and sloshing masses alone.
+    ///
+    /// The consistent mass matrix is exact for rigid motion.
+    pub fn density_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
+        let own = self.element_m * self.element_m / 12.0;
+        let parts = || {
+            let elements = self.density.iter().enumerate().map(move |(e, density)| {
+                (density * self.element_m, (e as f64 + 0.5) * self.element_m, own)
+            });
+            elements.chain(oscillators.iter().map(|o| (o.mass, self.station(o.node), 0.0)))
+        };
+        let mass: f64 = parts().map(|(mass, _, _)| mass).sum();
+        let centre_m = parts().map(|(mass, x, _)| mass * x).sum::<f64>() / mass;
+        let inertia =
+            parts().map(|(mass, x, own)| mass * ((x - centre_m) * (x - centre_m) + own)).sum();
+        MassProperties { mass, centre_m, inertia }
+    }
+
+    /// Consistent mass matrix of an element's density, for `[w, theta]` at its two ends.
+    pub fn element_mass(&self, element: usize) -> [[f64; 4]; 4] {
+        let l = self.element_m;
+        let rows = [
+            [156.0, 22.0 * l, 54.0, -13.0 * l],
+            [22.0 * l, 4.0 * l * l, 13.0 * l, -3.0 * l * l],
+            [54.0, 13.0 * l, 156.0, -22.0 * l],
+            [-13.0 * l, -3.0 * l * l, -22.0 * l, 4.0 * l * l],
+        ];
+        rows.map(|row| row.map(|entry| entry * self.density[element] * l / 420.0))
+    }
+
+    /// Stiffness matrix of an element, for `[w, theta]` at its two ends: what [`Beam::deflect`]
+    /// inverts, for checks only.
+    pub fn element_stiffness(&self, element: usize) -> [[f64; 4]; 4] {
+        let l = self.element_m;
+        let rows = [
+            [12.0, 6.0 * l, -12.0, 6.0 * l],
+            [6.0 * l, 4.0 * l * l, -6.0 * l, 2.0 * l * l],
+            [-12.0, -6.0 * l, 12.0, -6.0 * l],
+            [6.0 * l, 2.0 * l * l, -6.0 * l, 4.0 * l * l],
+        ];
+        rows.map(|row| row.map(|entry| entry * self.stiffness[element] / (l * l * l)))
+    }
+
+    /// `product = M displacement`; M is the mass matrix of the beam alone, with its
+    /// [`Beam::moments`].
+    ///
+    /// Both slices hold [`Beam::unknowns`] entries.
+    pub fn mass_times(&self, displacement: &[f64], product: &mut [f64]) {
+        self.density_times(displacement, product);
+        if !self.moments.motion.rotation.is_empty() {
+            self.moments.add_product(displacement, product);
+        }
+    }
+
+    /// `product = M_b displacement`; M_b is the consistent mass matrix of the density.
+    pub fn density_times(&self, displacement: &[f64], product: &mut [f64]) {
+        let l = self.element_m;
+        let [mut force, mut moment] = [0.0, 0.0];
+        let (nodes, _) = displacement.as_chunks::<2>();
+        let (out, _) = product.as_chunks_mut::<2>();
+        for ((ends, density), out) in nodes.windows(2).zip(&self.density).zip(out) {
+            let scale = density * l / 420.0;
+            let [[w0, slope0], [w1, slope1]] = [ends[0], ends[1]];
+            let (t0, t1) = (l * slope0, l * slope1);
+            *out = [
+                force + scale * (156.0 * w0 + 22.0 * t0 + 54.0 * w1 - 13.0 * t1),
+                moment + scale * l * (22.0 * w0 + 4.0 * t0 + 13.0 * w1 - 3.0 * t1),
+            ];
+            force = scale * (54.0 * w0 + 13.0 * t0 + 156.0 * w1 - 22.0 * t1);
+            moment = -scale * l * (13.0 * w0 + 3.0 * t0 + 22.0 * w1 - 4.0 * t1);
+        }
+        let tail = 2 * self.elements();
+        product[tail..].copy_from_slice(&[force, moment]);
+    }
+
+    /// The displacement under a self-equilibrated load, with the nose held: `w_0 = theta_0 = 0`.
+    ///
+    /// Any other rigid-body position is as good. The last node's load is not read: equilibrium
+    /// determines it. Both slices hold [`Beam::unknowns`] entries.
+    pub fn deflect(&self, load: &[f64], displacement: &mut [f64]) {
+        let l = self.element_m;
+        let [mut shear, mut bending, mut slope, mut w] = [0.0; 4];
+        let (loads, _) = load.as_chunks::<2>();
+        let (out, _) = displacement.as_chunks_mut::<2>();
+        for (([force, moment], out), stiffness) in loads.iter().zip(out).zip(&self.stiffness) {
+            *out = [w, slope];
+            // (EI w'')' = shear, EI w'' = bending: the principle of virtual work gives the signs.
+            shear += force;
+            bending -= moment;
+            let rise = shear * l;
+            let turn = l / stiffness;
+            w += l * (slope + turn * (bending / 2.0 + rise / 6.0));
+            slope += turn * (bending + rise / 2.0);
+            bending += rise;
+        }
+        let tail = 2 * self.elements();
+        displacement[tail..].copy_from_slice(&[w, slope]);
+    }
+}
+
+/// Linear interpolation in a table with increasing stations.
+fn interpolate(stations: &[f64], values: &[f64], x: f64) -> f64 {
+    let right = stations.partition_point(|&station| station < x).clamp(1, stations.len() - 1);
+    let (x0, x1) = (stations[right - 1], stations[right]);
+    let (y0, y1) = (values[right - 1], values[right]);
+    y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+}

@@ -1,0 +1,20 @@
+//! The vehicle as a structure: a free-free beam with the liquid of its tanks, and their common modes.
+//!
+//! | file | what it holds | where it comes from |
+//! |---|---|---|
+//! | `tanks` | liquid in the tanks | Fig. 4 |
+//! | `beam`, `shape` | elements, mass, statics; shapes between the nodes | eqs (1)-(2) |
+//! | `moments`, `rigid_body` | the one inertia of pitch, bending and slosh | |
+//! | `modes` | K phi = omega^2 M phi | Table 1, Fig. 5 |
+
+mod beam;
+mod modes;
+mod moments;
+mod rigid_body;
+mod shape;
+pub mod tanks;
+
+pub use beam::{Beam, MassProperties, Oscillator};
+pub use modes::{FLEXIBLE, MODES, Modes, SLOSH};
+pub use moments::{Moments, RigidMotion};
+pub use shape::{Point, Shape};

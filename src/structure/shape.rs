@@ -1,0 +1,102 @@
+//! Mode shapes between the nodes, and exact integrals of their products.
+
+use super::beam::Beam;
+
+/// A place on the beam, with the Hermite functions of its element there.
+///
+/// It carries everything that several shapes share, so each shape costs eight products.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    /// Station, m from the nose.
+    pub x: f64,
+    /// Share of an integral over the beam, m; 0 for a single place.
+    pub weight: f64,
+    element: usize,
+    w: [f64; 4],
+    slope: [f64; 4],
+}
+
+/// Deflection and slope at every node: cubic between them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Shape {
+    /// Deflection w of the nodes, nose first.
+    pub w: Vec<f64>,
+    /// Slope dw/dx of the nodes, 1/m where w has no unit.
+    pub slope: Vec<f64>,
+}
+
+impl Shape {
+    /// From a displacement of [`Beam`], times `scale`.
+    pub fn scaled(displacement: &[f64], scale: f64) -> Self {
+        let every_second =
+            |first: usize| displacement[first..].iter().step_by(2).map(|u| scale * u).collect();
+        Self { w: every_second(0), slope: every_second(1) }
+    }
+
+    /// Deflection at a place.
+    pub fn w_at(&self, point: &Point) -> f64 {
+        self.combine(point.element, &point.w)
+    }
+
+    /// Slope at a place.
+    pub fn slope_at(&self, point: &Point) -> f64 {
+        self.combine(point.element, &point.slope)
+    }
+
+    fn combine(&self, e: usize, weights: &[f64; 4]) -> f64 {
+        weights[0] * self.w[e]
+            + weights[1] * self.slope[e]
+            + weights[2] * self.w[e + 1]
+            + weights[3] * self.slope[e + 1]
+    }
+}
+
+impl Beam {
+    /// The place at station `x`, m; beyond an end the last element's cubic goes on.
+    pub fn point(&self, x: f64) -> Point {
+        self.point_in(((x / self.element_m) as usize).min(self.elements() - 1), x, 0.0)
+    }
+
+    fn point_in(&self, element: usize, x: f64, weight: f64) -> Point {
+        let l = self.element_m;
+        let s = (x - self.station(element)) / l;
+        let r = 1.0 - s;
+        Point {
+            x,
+            weight,
+            element,
+            w: [r * r * (1.0 + 2.0 * s), l * s * r * r, s * s * (3.0 - 2.0 * s), -l * s * s * r],
+            slope: [-6.0 * s * r / l, r * (1.0 - 3.0 * s), 6.0 * s * r / l, s * (3.0 * s - 2.0)],
+        }
+    }
+
+    /// Gauss points of `[from, to]`, four per element or piece of one.
+    ///
+    /// A weighted sum over them is exact for polynomials of degree 7 in each element: two shapes
+    /// and one more power of x.
+    pub fn gauss_points(&self, from: f64, to: f64) -> impl Iterator<Item = Point> {
+        let last = self.elements() - 1;
+        let element_of = move |x: f64| ((x / self.element_m) as usize).min(last);
+        let rule = gauss_rule();
+        (element_of(from)..=element_of(to)).flat_map(move |e| {
+            let start = if e == 0 { from } else { from.max(self.station(e)) };
+            let end = if e == last { to } else { to.min(self.station(e + 1)) };
+            let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+            rule.map(|(place, weight)| self.point_in(e, middle + half * place, half * weight))
+        })
+    }
+
+    /// Integral of `f` over `[from, to]`, exact under the condition of [`Beam::gauss_points`].
+    pub fn integrate(&self, from: f64, to: f64, f: impl Fn(&Point) -> f64) -> f64 {
+        self.gauss_points(from, to).map(|point| point.weight * f(&point)).sum()
+    }
+}
+
+/// Gauss-Legendre rule with four points on `[-1, 1]`: places and weights.
+fn gauss_rule() -> [(f64, f64); 4] {
+    let spread = 2.0 / 7.0 * 1.2_f64.sqrt();
+    let (inner, outer) = ((3.0 / 7.0 - spread).sqrt(), (3.0 / 7.0 + spread).sqrt());
+    let tilt = 30.0_f64.sqrt();
+    let (heavy, light) = ((18.0 + tilt) / 36.0, (18.0 - tilt) / 36.0);
+    [(-outer, light), (-inner, heavy), (inner, heavy), (outer, light)]
+}

@@ -1,0 +1,95 @@
+//! Beam, liquid and modes of a vehicle at one fuel level, and what they make of its airframe.
+
+use super::airframe::Airframe;
+use super::assembly::Chosen;
+use super::options::Configuration;
+use crate::air::curve_fits::Aero;
+use crate::air::strip_theory::{Strips, derive};
+use crate::error::Error;
+use crate::structure::{Beam, MODES, MassProperties, Modes, Oscillator, SLOSH};
+
+/// Beam, sloshing masses and modes of a vehicle at one fuel level.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// Beam.
+    pub beam: Beam,
+    /// Sloshing masses.
+    pub oscillators: Vec<Oscillator>,
+    /// Modes of both together.
+    pub modes: Modes,
+    /// Mass, mass centre and pitch inertia of both together.
+    pub properties: MassProperties,
+    strips: Strips,
+}
+
+impl Body {
+    /// Assembles the beam and solves for its modes.
+    ///
+    /// # Errors
+    /// Those of [`Chosen::structure`]; [`Error::Modes`] if the modes cannot be found.
+    pub fn new(chosen: &Chosen) -> Result<Self, Error> {
+        let (beam, oscillators) = chosen.structure()?;
+        let properties = beam.mass_properties(&oscillators);
+        let modes = match chosen.build.configuration {
+            Configuration::Rigid => Modes::default(),
+            _ => Modes::solve(&beam, &oscillators)?,
+        };
+        let strips = Strips::new(&beam, &modes, &chosen.vehicle.geometry);
+        Ok(Self { beam, oscillators, modes, strips, properties })
+    }
+
+    /// The same body, its modes in the basis nearest to those of another fuel level.
+    ///
+    /// # Errors
+    /// Those of [`Modes::turned`].
+    pub fn turned(mut self, chosen: &Chosen, reference: &Self) -> Result<Self, Error> {
+        let reference = (&reference.modes, &reference.oscillators[..]);
+        self.modes = self.modes.turned(&self.beam, &self.oscillators, reference)?;
+        self.strips = Strips::new(&self.beam, &self.modes, &chosen.vehicle.geometry);
+        Ok(self)
+    }
+
+    /// Displacement of the beam and of each sloshing mass, for each mode.
+    pub fn displacements(&self) -> Vec<Vec<f64>> {
+        self.modes.displacements(&self.oscillators)
+    }
+
+    /// `phi_i^T M v_k / mu_i` of the modes phi and of any displacements v.
+    pub fn products(&self, displacements: &[Vec<f64>]) -> [[f64; MODES]; MODES] {
+        self.modes.products(&self.beam, &self.oscillators, displacements)
+    }
+
+    /// What the equations of flight need of it, with the coefficient set around it.
+    ///
+    /// # Errors
+    /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
+    pub fn airframe(&self, chosen: &Chosen) -> Result<Airframe, Error> {
+        let Self { beam, oscillators, modes, strips, properties } = self;
+        let Chosen { aero, build, .. } = chosen;
+        // A force m g up on each sloshing mass and down on its tank.
+        let gravity = chosen.effective_gravity();
+        let damping = modes.damping(oscillators, &aero.inertia.structural_damping.value);
+        let floor = std::array::from_fn(|i| {
+            let weights = oscillators.iter().zip(&modes.slosh_displacement);
+            let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
+            // Of a mode that does not exist both are zero.
+            work / modes.modal_mass[i].max(f64::MIN_POSITIVE)
+        });
+        let rate = build.factors.pitch_rate;
+        let tanks = chosen.tanks(build.fuel_fraction)?;
+        Ok(Airframe {
+            mass: properties.mass,
+            inertia: properties.inertia,
+            mass_centre: properties.centre_m,
+            elastic: derive(&Aero::new(aero), beam, modes, strips, properties.centre_m, rate),
+            stiffness: modes.stiffness(),
+            damping: std::array::from_fn(|k| damping.map(|row| row[k])),
+            floor,
+            slosh: modes.slosh_displacement,
+            turning: Default::default(),
+            imu: modes.at(&beam.point(build.stations.imu)),
+            probe: modes.at(&beam.point(build.stations.probe)),
+            depth: tanks.map_or([0.0; SLOSH], |tanks| tanks.map(|tank| tank.depth_m)),
+        })
+    }
+}

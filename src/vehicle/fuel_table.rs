@@ -1,0 +1,164 @@
+//! The vehicle between the fuel levels at which its modes are solved, for fuel that burns in flight.
+//!
+//! Frequencies cross as the tanks empty, so eigenmodes cannot be followed one by one. The space that
+//! the kept modes span can: at every level its basis is the one nearest to the eigenmodes of the
+//! start ([`Modes::turned`]). It depends on start and level alone, not on the levels in between, and
+//! everything in it is smooth. The stiffness is then a full matrix, whose eigenvalues are still the
+//! squares of the frequencies of the level.
+//!
+//! Near empty tanks the liquid slows down with the root of what is left, so the levels are equally
+//! spaced in the root of the filling. Between them lie cubics with matching slopes; these come from
+//! five levels each, so the error falls with the fourth power of the spacing.
+
+use super::airframe::{Airframe, COEFFICIENTS};
+use super::assembly::Chosen;
+use super::body::Body;
+use crate::air::curve_fits::PerMode;
+use crate::error::Error;
+use crate::solve::Scalar;
+use crate::structure::MODES;
+#[cfg(doc)]
+use crate::structure::Modes;
+use crate::structure::tanks::fuel_kg_per_m;
+
+/// Levels at which the modes are solved.
+const LEVELS: usize = 33;
+/// Levels of a difference quotient.
+const STENCIL: usize = 5;
+/// Slope at each place of five equally spaced ones, of fourth order, times 12.
+const SLOPES: [[f64; STENCIL]; STENCIL] = [
+    [-25.0, 48.0, -36.0, 16.0, -3.0],
+    [-3.0, -10.0, 18.0, -6.0, 1.0],
+    [1.0, -8.0, 0.0, 8.0, -1.0],
+    [-1.0, 6.0, -18.0, 10.0, 3.0],
+    [3.0, -16.0, 36.0, -48.0, 25.0],
+];
+/// The levels reach down to this part of what cannot be drained, so that a trial step of an
+/// integrator finds a vehicle a little below empty tanks.
+const BELOW_EMPTY: f64 = 0.5;
+
+/// One vehicle at all fuel levels from its start downwards.
+#[derive(Debug, Clone)]
+pub struct Burn {
+    /// Filling at no fuel, and per fuel, m/kg.
+    filling: [f64; 2],
+    /// Root of the filling at the start.
+    start: f64,
+    /// Spacing of the roots.
+    spacing: f64,
+    /// Cubics between the levels: coefficients of the powers of the place in each piece, 0 to 1.
+    pieces: Vec<[[f64; COEFFICIENTS]; 4]>,
+}
+
+/// Slope at a level of what is known at all of them, per level.
+fn slope(level: usize, at: impl Fn(usize) -> f64) -> f64 {
+    let first = level.saturating_sub(STENCIL / 2).min(LEVELS - STENCIL);
+    let weights = &SLOPES[level - first];
+    weights.iter().enumerate().map(|(i, weight)| weight * at(first + i)).sum::<f64>() / 12.0
+}
+
+impl Burn {
+    /// Solves a vehicle, whose body at the start is known, at all levels below.
+    ///
+    /// # Errors
+    /// Those of [`Body::new`]; [`Error::Value`] if the modes cannot be followed.
+    pub fn new(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
+        let residual = chosen.vehicle.mass.residual_fraction.value;
+        let drained = 1.0 - residual;
+        let start = (residual + drained * chosen.build.fuel_fraction).sqrt();
+        let spacing = (start - (BELOW_EMPTY * residual).sqrt()) / (LEVELS - 1) as f64;
+        let filling = [residual, drained / fuel_kg_per_m(&chosen.vehicle, 1.0)];
+
+        let level = |level: usize| {
+            let root = start - spacing * level as f64;
+            chosen.at((root * root - residual) / drained)
+        };
+        let levels: Vec<Chosen> =
+            std::iter::once(chosen.clone()).chain((1..LEVELS).map(level)).collect();
+        let mut bodies = vec![body.clone()];
+        for chosen in &levels[1..] {
+            bodies.push(Body::new(chosen)?.turned(chosen, body)?);
+        }
+        let shapes: Vec<Vec<Vec<f64>>> = bodies.iter().map(Body::displacements).collect();
+        let mut rows = Vec::with_capacity(LEVELS);
+        for (level, body) in bodies.iter().enumerate() {
+            let root = start - spacing * level as f64;
+            let levels_per_fuel = -filling[1] / (2.0 * root * spacing);
+            let turning = body
+                .products(&turned(level, &shapes))
+                .map(|row| row.map(|entry| entry * levels_per_fuel));
+            push_row(&mut rows, body, &levels[level], turning)?;
+        }
+        Ok(Self { filling, start, spacing, pieces: pieces(&rows) })
+    }
+
+    /// The vehicle at a fuel level, kg/m. Far beyond the levels of a flight it no longer changes.
+    pub fn airframe<S: Scalar>(&self, fuel: S) -> Airframe<S> {
+        let place = self.place(fuel);
+        let piece = (place.value() as usize).min(self.pieces.len() - 1);
+        let [c0, c1, c2, c3] = &self.pieces[piece];
+        let t = place.value() - piece as f64;
+        let row: [S; COEFFICIENTS] = std::array::from_fn(|i| {
+            let value = ((c3[i] * t + c2[i]) * t + c1[i]) * t + c0[i];
+            place.chain(value, (3.0 * c3[i] * t + 2.0 * c2[i]) * t + c1[i])
+        });
+        Airframe::from_row(&row)
+    }
+
+    /// Place among the levels, from 0 at the start.
+    fn place<S: Scalar>(&self, fuel: S) -> S {
+        let [empty, per_fuel] = self.filling;
+        let filling = fuel * per_fuel + empty;
+        let [highest, lowest] =
+            [-1.0, (LEVELS - 1) as f64].map(|level| self.start - self.spacing * level);
+        // Not a number counts as empty.
+        let root = if filling.value() >= highest * highest {
+            S::constant(highest)
+        } else if filling.value() > lowest * lowest {
+            filling.sqrt()
+        } else {
+            S::constant(lowest)
+        };
+        -(root - self.start) * (1.0 / self.spacing)
+    }
+}
+
+/// Adds an airframe, in a frame of its own: its numbers are many.
+#[inline(never)]
+fn push_row(
+    rows: &mut Vec<[f64; COEFFICIENTS]>,
+    body: &Body,
+    chosen: &Chosen,
+    turning: [PerMode; MODES],
+) -> Result<(), Error> {
+    let airframe = body.airframe(chosen)?;
+    rows.push(Airframe { turning, ..airframe }.to_row());
+    Ok(())
+}
+
+/// How the shapes change per level, at a level.
+fn turned(level: usize, shapes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
+    let modes = 0..shapes[level].len();
+    modes
+        .map(|mode| {
+            let unknowns = 0..shapes[level][mode].len();
+            unknowns.map(|i| slope(level, |at| shapes[at][mode][i])).collect()
+        })
+        .collect()
+}
+
+/// Cubics between rows of values.
+fn pieces(rows: &[[f64; COEFFICIENTS]]) -> Vec<[[f64; COEFFICIENTS]; 4]> {
+    let slopes: Vec<[f64; COEFFICIENTS]> = (0..rows.len())
+        .map(|level| std::array::from_fn(|i| slope(level, |at| rows[at][i])))
+        .collect();
+    (0..rows.len() - 1)
+        .map(|level| {
+            let [y0, y1] = [&rows[level], &rows[level + 1]];
+            let [m0, m1] = [&slopes[level], &slopes[level + 1]];
+            let square = |i: usize| 3.0 * (y1[i] - y0[i]) - 2.0 * m0[i] - m1[i];
+            let cube = |i: usize| 2.0 * (y0[i] - y1[i]) + m0[i] + m1[i];
+            [*y0, *m0, std::array::from_fn(square), std::array::from_fn(cube)]
+        })
+        .collect()
+}

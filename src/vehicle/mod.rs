@@ -1,0 +1,32 @@
+//! From data and options to a vehicle that can fly: what it is made of, without its equations.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `state` | states, controls and gusts of eq. (3) |
+//! | `options` | what shapes a vehicle |
+//! | `factors` | what may be uncertain about it |
+//! | `assembly` | data and options to beam, liquid and coefficient set |
+//! | `airframe` | what the fuel level decides |
+//! | `body` | beam, liquid and modes at one fuel level |
+//! | `fuel_table` | the vehicle while fuel burns |
+//! | `complete` | all of it together |
+
+mod airframe;
+mod assembly;
+mod body;
+mod complete;
+mod factors;
+mod fuel_table;
+mod options;
+mod state;
+
+pub use airframe::{Airframe, COEFFICIENTS};
+pub use assembly::{Chosen, structure};
+pub use body::Body;
+pub use complete::Vehicle;
+pub use factors::Factors;
+pub use fuel_table::Burn;
+pub use options::{Build, Condition, Configuration, Stations};
+pub use state::{
+    CONTROLS, Control, FASTEST_GUST, FUEL, GUSTS, Gust, NOMINAL, RIGID, STATE_NAMES, STATES, State,
+};

@@ -1,0 +1,88 @@
+//! What shapes a vehicle.
+
+use super::factors::Factors;
+use super::state::{STATES, State};
+use crate::air::Atmosphere;
+use crate::data::AeroSet;
+use crate::error::Error;
+
+/// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Configuration {
+    /// Rigid body: 5 states.
+    Rigid = 1,
+    /// Flexible beam with its mass spread evenly: 11 states.
+    EvenMassBeam = 2,
+    /// Flexible beam with sloshing propellant: 15 states.
+    SloshBeam = 3,
+}
+
+/// Flight condition to be held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Condition {
+    /// Mach number.
+    pub mach: f64,
+    /// Altitude, m.
+    pub altitude: f64,
+    /// Flight-path angle, rad.
+    pub gamma: f64,
+}
+
+impl Condition {
+    /// State on this condition with everything else zero.
+    pub fn start(&self, atmosphere: &Atmosphere) -> State {
+        let mut x = [0.0; STATES];
+        x[0] = self.mach * atmosphere.sound_speed(self.altitude);
+        x[1] = self.altitude;
+        x[2] = self.gamma;
+        x
+    }
+}
+
+/// Where the sensors sit, m from the nose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stations {
+    /// Inertial measurement unit.
+    pub imu: f64,
+    /// Incidence vane.
+    pub probe: f64,
+}
+
+impl Stations {
+    /// Whether both are on a body of this length, m.
+    ///
+    /// # Errors
+    /// [`Error::Value`] with the station that is not.
+    pub fn check(&self, length_m: f64) -> Result<(), Error> {
+        for (variable, value) in [("imu_station", self.imu), ("probe_station", self.probe)] {
+            if !(0.0..=length_m).contains(&value) {
+                let expected = format!("a sensor sits on the body, from 0 to {length_m} m");
+                return Err(Error::Value { variable: variable.into(), value, expected });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What shapes a vehicle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Build {
+    /// Which parts can move.
+    pub configuration: Configuration,
+    /// Coefficient set.
+    pub aero: AeroSet,
+    /// Propellant at the start, 0 to 1.
+    pub fuel_fraction: f64,
+    /// Whether it burns in flight.
+    pub fuel_burn: bool,
+    /// Damping ratio of the sloshing masses.
+    pub slosh_damping: f64,
+    /// Sloshing frequency, rad/s; 0 takes the geometry of the tanks.
+    pub slosh_frequency: f64,
+    /// Flight condition: the tanks' geometry gives a frequency only under its effective gravity.
+    pub condition: Condition,
+    /// Where the sensors sit.
+    pub stations: Stations,
+    /// What is uncertain.
+    pub factors: Factors,
+}
