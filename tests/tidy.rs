@@ -202,8 +202,14 @@ fn tidy_links_and_pictures_of_every_page_exist() {
         .filter(|page| page.exists())
         .collect();
     pages.extend(
-        ["README.md", "examples/README.md", "examples/FROM_THE_PAPER.md", "tests/README.md"]
-            .map(|page| root.join(page)),
+        [
+            "README.md",
+            "CONTRIBUTING.md",
+            "examples/README.md",
+            "examples/FROM_THE_PAPER.md",
+            "tests/README.md",
+        ]
+        .map(|page| root.join(page)),
     );
     let mut seen = 0;
     for page in pages {
@@ -223,4 +229,34 @@ fn tidy_links_and_pictures_of_every_page_exist() {
         }
     }
     assert!(seen > 20, "links and pictures: {seen}");
+}
+
+#[test]
+fn tidy_the_guide_for_contributors_names_what_exists() {
+    let page = read("CONTRIBUTING.md");
+    let (code, scripts) = page.split("```").enumerate().partition::<Vec<_>, _>(|(i, _)| i % 2 == 0);
+    let prose: String = code.into_iter().map(|(_, text)| text).collect();
+    let paths = quoted(&prose)
+        .into_iter()
+        .filter(|word| word.contains('/') && !word.contains([' ', '=']) && !word.contains("NAME"));
+    let mut seen = 0;
+    for path in paths.filter(|path| !path.starts_with("target/")) {
+        assert!(root().join(path).exists(), "CONTRIBUTING.md names {path}: no such file");
+        seen += 1;
+    }
+    let commands = read("build/src/cli.rs").to_lowercase();
+    for (_, script) in scripts {
+        for rest in script.split("cargo ahv ").skip(1) {
+            let name = rest.split(|c: char| !c.is_ascii_lowercase()).next().unwrap_or_default();
+            assert!(commands.contains(&format!("    {name}(")), "no such command: {name}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 5, "paths and commands: {seen}");
+}
+
+#[test]
+fn tidy_the_citation_has_the_version_of_the_package() {
+    let version = format!("\nversion: {}\n", env!("CARGO_PKG_VERSION"));
+    assert!(read("CITATION.cff").contains(&version), "CITATION.cff: {version}");
 }
