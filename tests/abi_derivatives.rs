@@ -12,6 +12,8 @@ const SLOSH_BEAM: i32 = 3;
 /// Elevator of the manoeuvre after `t` seconds, rad, and its derivatives.
 const COURSE: [f64; 4] = [0.001, 0.02, 0.1, 1.0];
 const DURATION: f64 = 0.2;
+/// Of an input of 0.01 rad.
+const ROUNDING: f64 = 1e-15;
 
 fn course(t: f64) -> [f64; 4] {
     let [value, first, second, third] = COURSE;
@@ -70,6 +72,32 @@ fn verif_each_derivative_raises_the_order_of_the_interpolation_by_one() {
         let observed = (coarse / fine).log2();
         let expected = order as f64 + 1.0;
         assert!((observed - expected).abs() < 0.2, "{order}: {observed}, {coarse:e}, {fine:e}");
+    }
+}
+
+#[test]
+fn verif_an_input_and_its_slope_after_a_step_are_those_of_its_polynomial() {
+    let api = Api::load();
+    let t = DURATION;
+    for order in 1..=3 {
+        let slave = Slave::flying_as(&api, SLOSH_BEAM);
+        let [mut value, mut slope] = [COURSE[0], 0.0];
+        // t^k / k! and its derivative.
+        let (mut term, mut factorial) = (1.0, 1.0);
+        for (k, derivative) in (1..).zip(&COURSE[1..=order]) {
+            slope += derivative * term / factorial;
+            (term, factorial) = (term * t, factorial * f64::from(k));
+            value += derivative * term / factorial;
+        }
+        assert_eq!(slave.set("delta_e", COURSE[0]), Status::Ok);
+        let orders: Vec<i32> = (1..).take(order).collect();
+        assert_eq!(set_derivatives(&slave, &orders, &COURSE[1..=order]), Status::Ok);
+        assert_eq!(slave.step(0.0, t), Status::Ok);
+        let found = slave.get("delta_e");
+        assert!((found - value).abs() < ROUNDING, "order {order}: {found}, not {value}");
+        let (status, found) = output_derivative(&slave, "delta_e_effective", 1);
+        assert_eq!(status, Status::Ok);
+        assert!((found - slope).abs() < ROUNDING, "order {order}: {found}, not {slope}");
     }
 }
 

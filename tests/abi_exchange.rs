@@ -4,11 +4,7 @@
 
 mod common;
 
-use ahv::vehicle::NOMINAL;
-
-use ahv::vehicle::STATES;
-
-use ahv::vehicle::State;
+use ahv::vehicle::{NOMINAL, STATES, State};
 use common::{Api, Slave, reference};
 use fmi_model::v2::sys::{EventInfo, Status};
 

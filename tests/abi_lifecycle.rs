@@ -4,9 +4,7 @@
 
 mod common;
 
-use ahv::vehicle::STATES;
-
-use ahv::vehicle::State;
+use ahv::vehicle::{STATES, State};
 use common::{Api, Slave, configurations, reference};
 use fmi_model::v2::calls::{CALLS, PHASES, Phase};
 use fmi_model::v2::sys::{EventInfo, Status, StatusKind};

@@ -3,7 +3,8 @@
 //! `FMI2_INCLUDE=<folder with fmi2Functions.h> cargo test --features verify-abi --test abi_signatures`
 //!
 //! The folder is `headers/` of the FMI 2.0.5 distribution; FMPy has the same files in `c-code/`, the
-//! crate fmi-sys in `fmi-standard2/headers/`.
+//! crate fmi-sys in `fmi-standard2/headers/`. `cargo ahv test` takes those of FMPy. The bindings of fmi-sys
+//! itself would say nothing more, and bindgen needs libclang to make them.
 
 use fmi_model::v2::sys::{self, signatures};
 use std::fmt::Write;

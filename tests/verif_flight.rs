@@ -3,20 +3,13 @@
 
 mod model;
 
-use ahv::vehicle::CONTROLS;
-
-use ahv::vehicle::NOMINAL;
-
-use ahv::vehicle::STATES;
-
-use ahv::vehicle::State;
-
 use ahv::data::AeroSet;
 use ahv::dynamics::linear::Linear;
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
+use ahv::flight::Inputs;
 use ahv::solve::{Dual, Scalar};
-use ahv::vehicle::{Condition, Configuration, Vehicle};
+use ahv::vehicle::{CONTROLS, Condition, Configuration, NOMINAL, STATES, State, Vehicle};
 use model::{
     AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, flight_with, vehicle, vehicle_with,
 };
@@ -225,4 +218,29 @@ fn verif_zeros_are_where_the_rosenbrock_matrix_is_singular() {
             );
         }
     }
+}
+
+#[test]
+fn verif_inputs_after_a_step_are_the_same_polynomial_from_there() {
+    // p(t) = a + b t + c t^2 / 2 + d t^3 / 6, of numbers that leave no rounding.
+    const T: f64 = 1.5;
+    let courses =
+        [[1.0, -0.5, 3.0, 6.0], [-2.0, 4.0, 0.25, -12.0], [0.5, 0.0, -8.0, 18.0], [8.0; 4]];
+    let mut inputs = Inputs::ZERO;
+    for (index, [value, derivatives @ ..]) in courses.into_iter().enumerate() {
+        inputs.set(index, value);
+        for (order, derivative) in (1..).zip(derivatives) {
+            inputs.set_derivative(index, order, derivative);
+        }
+    }
+    let after = inputs.after(T);
+    for (index, [a, b, c, d]) in courses.into_iter().enumerate() {
+        let value = a + b * T + c * T * T / 2.0 + d * T * T * T / 6.0;
+        assert_eq!(after.values[index], value, "input {index}");
+        let expected = [b + c * T + d * T * T / 2.0, c + d * T, d];
+        assert_eq!(after.derivatives.map(|order| order[index]), expected, "input {index}");
+    }
+    // They tell how the inputs moved until now; the next step holds them.
+    assert!(!after.moving());
+    assert_eq!(after.after(T), Inputs { derivatives: Inputs::ZERO.derivatives, ..after });
 }

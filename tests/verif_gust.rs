@@ -3,17 +3,9 @@
 
 mod model;
 
-use ahv::vehicle::NOMINAL;
-
-use ahv::vehicle::RIGID;
-
-use ahv::vehicle::STATES;
-
-use ahv::vehicle::State;
-
 use ahv::flight::Flight;
 use ahv::solve::{Dual, Scalar};
-use ahv::vehicle::{Condition, Configuration, Vehicle};
+use ahv::vehicle::{Condition, Configuration, NOMINAL, RIGID, STATES, State, Vehicle};
 use model::{builds, data, deviation, flight_with, vehicle};
 
 /// Forces turned from one pair of axes into another, over g: a few roundings.

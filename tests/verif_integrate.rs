@@ -184,6 +184,38 @@ fn verif_leaving_is_located() {
 }
 
 #[test]
+fn verif_a_model_that_ceases_to_hold_at_the_very_end_is_left_before_it() {
+    /// x' = 1, for less than a second.
+    struct Closing;
+    impl System<1> for Closing {
+        fn derivatives(&self, _: f64, _: &[f64; 1]) -> [f64; 1] {
+            [1.0]
+        }
+        fn holds(&self, t: f64, _: &[f64; 1]) -> bool {
+            t < 1.0
+        }
+        fn nominal(&self) -> &[f64; 1] {
+            &[1.0]
+        }
+    }
+    // Steps whose sum is a second without rounding.
+    for proposal in [0.25, 1.0, 10.0] {
+        let (mut integrator, mut x) = (Integrator::new(1e-8, proposal), [0.0]);
+        let arrival = integrator.advance(&mut &DOP853, &Closing, &mut x, [0.0, 1.0], &mut None);
+        let Arrival::Left(t) = arrival else { panic!("{proposal}: {arrival:?}") };
+        assert!(t < 1.0 && 1.0 - t < 2e-9 && (x[0] - t).abs() < 1e-14, "{proposal}: {t}, {x:?}");
+    }
+}
+
+#[test]
+fn verif_an_interval_shorter_than_the_shortest_step_is_one_step() {
+    let (mut integrator, mut x) = (Integrator::new(1e-8, 1e-3), [0.0]);
+    let arrival = integrator.advance(&mut &DOP853, &Clock, &mut x, [0.0, 1e-14], &mut None);
+    assert_eq!(arrival, Arrival::Complete);
+    assert!((x[0] - 1e-14).abs() < 1e-28, "{x:?}");
+}
+
+#[test]
 fn verif_an_infinite_right_hand_side_is_reported() {
     struct Wall;
     impl System<1> for Wall {

@@ -3,11 +3,9 @@
 
 mod model;
 
-use ahv::vehicle::GUSTS;
-
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::vehicle::STATES;
+use ahv::vehicle::{GUSTS, STATES};
 use model::{data, setup, shown};
 
 const NAMES: [&str; 2] = ["slosh1", "slosh2"];

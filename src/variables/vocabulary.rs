@@ -1,10 +1,8 @@
 //! The vocabulary of the table's rows: units, masks of dependencies, constructors, enumerations.
 
-use crate::vehicle::NOMINAL;
-
 use crate::data::OWN;
 use crate::flight::{Flight, Sample, Setup};
-use crate::vehicle::STATES;
+use crate::vehicle::{NOMINAL, STATES};
 use fmi_model::{Dependencies, Kind, Unit, Variable};
 
 /// Degrees per radian.

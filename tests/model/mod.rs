@@ -1,15 +1,9 @@
 //! Shared by the integration tests.
 #![allow(dead_code, missing_docs)]
 
-use ahv::vehicle::NOMINAL;
-
-use ahv::vehicle::STATES;
-
-use ahv::vehicle::State;
-
 use ahv::data::{AeroSet, Data};
 use ahv::flight::{Flight, Parameters, Setup};
-use ahv::vehicle::{Build, Configuration, Vehicle};
+use ahv::vehicle::{Build, Configuration, NOMINAL, STATES, State, Vehicle};
 use fmi_model::table::find;
 
 pub const CONFIGURATIONS: [Configuration; 3] =

@@ -6,7 +6,7 @@
 //! | [`model`] | the traits that a model implements |
 //! | [`table`] | the one table of variables: value reference = row |
 //! | [`identity`] | GUID and key of saved states |
-//! | [`instance`] | one instance: set-up, steps, status |
+//! | [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
 //! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
 //! | [`state`] | the FMU state and its bytes |
 //! | [`failure`], [`log`] | what a call is refused for; messages for the master's logger |
@@ -36,6 +36,7 @@ pub mod package;
 mod pending;
 mod short;
 pub mod state;
+mod steps;
 pub mod table;
 pub mod v2;
 pub mod values;

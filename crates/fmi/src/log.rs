@@ -61,7 +61,7 @@ impl Category {
     }
 
     /// What is logged whether or not its category is enabled: `loggingOn` is about debugging, and
-    /// neither a refused call nor a flight that ends early may be mute.
+    /// neither a refused call nor a simulation that ends early may be mute.
     const ALWAYS: u8 =
         Self::StatusDiscard.bit() | Self::StatusError.bit() | Self::StatusFatal.bit();
 }
