@@ -11,8 +11,6 @@
 //! | [`modes`] | K phi = omega^2 M phi | Table 1, Fig. 5 |
 //! | [`aero`], [`envelope`] | curve fits at run time, and where they hold | eq. (4) |
 //! | [`aeroelastic`] | where the elastic terms come from | eq. (4) |
-//! | [`gas`] | shocks, expansions, heat addition, ducts | NACA Report 1135 |
-//! | [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u) | eq. (3) |
 //! | [`burn`], [`intake`] | the vehicle while fuel burns, and how fast it does | |
 //! | [`choking`] | how much fuel the burner can still take | NACA Report 1135 |
@@ -49,7 +47,6 @@ pub mod exponential;
 pub mod factors;
 pub mod flight;
 mod fmu;
-pub mod gas;
 pub mod hermite;
 pub mod intake;
 pub mod integrate;
@@ -58,7 +55,6 @@ pub mod modes;
 pub mod params;
 pub mod rigid_body;
 pub mod scalar;
-pub mod shock_expansion;
 pub mod short;
 pub mod slosh;
 pub mod trim;

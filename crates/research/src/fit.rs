@@ -3,6 +3,9 @@
 mod regression;
 
 use crate::cli::Fit;
+use crate::shock_expansion::elastic::{self, COMPARED};
+use crate::shock_expansion::stream::Stream;
+use crate::shock_expansion::{Attitude, ShockExpansion};
 use ahv::atmosphere::Atmosphere;
 use ahv::dynamics::Vehicle;
 use ahv::flight::Parameters;
@@ -10,9 +13,6 @@ use ahv::modes::{FLEXIBLE, Modes};
 use ahv::params::{
     AeroData, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE, VehicleData,
 };
-use ahv::shock_expansion::elastic::{self, COMPARED};
-use ahv::shock_expansion::stream::Stream;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::trim::trim;
 use ahv::vehicle::{AeroSet, Build, Configuration, Data, structure};
 use ahv_tool::table::{row, table};

@@ -4,7 +4,7 @@
 
 use super::stream::{Medium, Stream};
 use crate::gas::GasError;
-use crate::params::EngineData;
+use ahv::params::EngineData;
 
 /// Duct and fuel.
 #[derive(Debug, Clone, Copy)]

@@ -1,8 +1,8 @@
 //! A uniform stream of a given gas, and what walls and ducts make of it.
 
-use crate::atmosphere::Atmosphere;
 use crate::gas::{Gas, GasError};
-use crate::params::EarthData;
+use ahv::atmosphere::Atmosphere;
+use ahv::params::EarthData;
 
 /// The gas with what shocks do not ask for: its constant.
 #[derive(Debug, Clone, Copy)]

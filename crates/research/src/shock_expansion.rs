@@ -9,7 +9,7 @@
 //! the free stream, and the flow of momentum through inlet and exit. A part of this is called
 //! thrust; whatever is not, is lift, drag and moment, so nothing is lost or counted twice.
 //!
-//! Bending changes the local incidence (see [`crate::aeroelastic`]): the stream turns at the nose
+//! Bending changes the local incidence (see [`ahv::aeroelastic`]): the stream turns at the nose
 //! through a shock, then follows the wall without losses (the shock-expansion method: Eggers,
 //! Syvertson and Kraus, NACA Report 1123). Panels keep their undeformed normals and places.
 
@@ -19,7 +19,7 @@ pub mod stream;
 pub mod surface;
 
 use crate::gas::GasError;
-use crate::params::{EarthData, VehicleData};
+use ahv::params::{EarthData, VehicleData};
 use engine::Engine;
 use stream::{Medium, Stream};
 use surface::{Force, Wall};

@@ -1,11 +1,11 @@
-//! Elastic derivatives straight from the panels, to judge the strips of [`crate::aeroelastic`].
+//! Elastic derivatives straight from the panels, to judge the strips of [`ahv::aeroelastic`].
 
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
-use crate::aero::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
-use crate::beam::Beam;
 use crate::gas::GasError;
-use crate::modes::Modes;
+use ahv::aero::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
+use ahv::beam::Beam;
+use ahv::modes::Modes;
 
 /// Modal coordinate (m), and its rate over the speed, of the central differences: bends of 1e-4
 /// rad, so that truncation and rounding both stay below 1e-6.
@@ -13,7 +13,7 @@ const STEP: f64 = 1e-4;
 
 impl ShockExpansion {
     /// Elastic terms of lift, drag, moment and modal forces around an attitude, in the units of
-    /// [`crate::aeroelastic::derive`].
+    /// [`ahv::aeroelastic::derive`].
     ///
     /// # Errors
     /// [`GasError`] where the flow does not exist.

@@ -1,6 +1,7 @@
 //! The coefficient set `shock_expansion` against the model that it is a regression of.
 #![allow(missing_docs)]
 
+#[path = "../../../tests/model/mod.rs"]
 mod model;
 
 use ahv::aero::{Aero, FORCE, LIFT};
@@ -10,11 +11,11 @@ use ahv::beam::Beam;
 use ahv::dynamics::Vehicle;
 use ahv::hermite::Shape;
 use ahv::modes::{FLEXIBLE, Modes};
-use ahv::shock_expansion::elastic::{COMPARED, deviation};
-use ahv::shock_expansion::stream::Stream;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::trim::{Trim, trim};
 use ahv::vehicle::{AeroSet, Build, Configuration, structure};
+use ahv_research::shock_expansion::elastic::{COMPARED, deviation};
+use ahv_research::shock_expansion::stream::Stream;
+use ahv_research::shock_expansion::{Attitude, ShockExpansion};
 use model::{assert_close, build, data};
 
 /// Strips of uniform load in place of the true distribution, and one lift slope each: the share of
