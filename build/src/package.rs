@@ -2,7 +2,6 @@
 
 mod binary;
 mod cross_check;
-mod icon;
 mod library;
 mod platform;
 mod related;
@@ -12,7 +11,7 @@ mod windows;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{BINARY, can_write, read, shown, target, write};
+use crate::workspace::{BINARY, can_write, read, root, shown, target, write};
 use crate::{documentation, licenses, say};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
@@ -215,9 +214,8 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.extend(licenses::collect()?);
-    let picture = icon::png()?;
-    files.extend(terminals::files(&picture)?);
-    files.insert("model.png".to_string(), picture);
+    files.extend(terminals::files()?);
+    files.insert("model.png".to_string(), icon("vehicle")?);
     let mut machines = Vec::new();
     for Library { platform, content, binary } in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
@@ -227,6 +225,11 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     let page = documentation::html(&machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
+}
+
+/// A picture that the FMU carries.
+fn icon(name: &str) -> Result<Vec<u8>> {
+    read(&root().join(format!("build/icons/{name}.png")), BINARY)
 }
 
 /// What comes out when the FMU is flown; it is flown as it will be packaged.
