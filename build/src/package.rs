@@ -18,7 +18,6 @@ pub use binary::Binary;
 use fmi_model::archive::zip;
 pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::env;
 use std::io::Cursor;
@@ -266,7 +265,8 @@ fn write_fmu(files: Files, output: &Path) -> Result<()> {
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
     say!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
-    let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let digest: String =
+        hmac_sha256::Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     say!("  sha256 {digest}")?;
     Ok(())
 }
