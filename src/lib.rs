@@ -12,10 +12,9 @@
 //! | [`air`] | atmosphere, curve fits and where they hold, strip theory, engine | eq. (4), US Standard Atmosphere 1976, NACA Report 1135 |
 //! | [`vehicle`] | data and options to a vehicle | |
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u); trim, poles, zeros | eq. (3), Tables 2-3 |
-//! | [`gas`], [`shock_expansion`] | first-principles air and engine | where eq. (4) comes from |
-//! | [`parameters`], [`flight`] | parameters and inputs to outputs | |
+//! | [`flight`] | parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
-//! | [`fmi`] | the FMU's C interface | FMI 2.0.5 |
+//! | `fmu` | the flight as a model of [`fmi_model`] | FMI 2.0.5 |
 //!
 //! Beside them stand [`error`], [`short`] and [`errata`]: where the paper is wrong or silent, with
 //! derivations.
@@ -33,8 +32,6 @@ pub mod errata {}
 pub mod error;
 pub mod flight;
 mod fmu;
-pub mod gas;
-pub mod shock_expansion;
 pub mod short;
 pub mod solve;
 pub mod structure;

@@ -3,18 +3,13 @@
 
 mod model;
 
-use ahv::air::Intake;
 use ahv::data::AeroSet;
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::structure::MODES;
 use ahv::vehicle::{Burn, Configuration, FUEL, GUSTS};
-use model::{CONFIGURATIONS, assert_close, data};
+use model::{CONFIGURATIONS, assert_close};
 
-/// Captured height against the first-principles model, up to Mach 10 and beyond.
-const CAPTURE: f64 = 4e-3;
-const CAPTURE_BEYOND: f64 = 4e-2;
 /// Fuel burnt against the integral of its flow, over what was burnt.
 const BOOKS: f64 = 1e-9;
 /// The instant at which the fuel runs out, s: the flow follows the loss of mass a little.
@@ -29,28 +24,6 @@ fn burning(edit: impl FnOnce(&mut ahv::flight::Parameters)) -> Flight {
 
 fn fuel_rate(flight: &mut Flight) -> f64 {
     flight.evaluate().unwrap().derivatives[FUEL]
-}
-
-#[test]
-fn verif_the_intake_takes_what_the_first_principles_model_takes() {
-    let data = data();
-    let intake = Intake::new(&data.vehicle, &data.earth);
-    let model = ShockExpansion::new(&data.vehicle, &data.earth);
-    let atmosphere = model::vehicle(Configuration::Rigid).atmosphere;
-    for altitude in [20_000.0, 26_000.0, 40_000.0] {
-        for mach in [6.0, 7.0, 8.0, 9.0, 10.0, 11.0] {
-            for degrees in [-4.5_f64, -2.0, 0.0, 1.5, 3.0, 6.0, 9.5] {
-                let alpha = degrees.to_radians();
-                let ahead = model.medium.ahead(&atmosphere, mach, altitude);
-                let attitude = Attitude { alpha, delta_e: 0.0, phi: 0.0 };
-                let loads = model.loads(&ahead, &attitude, &|_| 0.0).unwrap();
-                let expected = loads.mass_flow / model.medium.mass_flux(&ahead);
-                let limit = if mach > 10.0 { CAPTURE_BEYOND } else { CAPTURE };
-                let found = intake.captured_height(mach, alpha);
-                assert_close(&format!("Mach {mach}, {degrees} deg"), found, expected, limit);
-            }
-        }
-    }
 }
 
 #[test]

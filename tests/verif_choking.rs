@@ -1,18 +1,14 @@
-//! How much fuel the burner can take, against the engine of the first-principles model.
+//! How much fuel the burner can take: printed limits, continuity, slopes, edges. Its agreement with the
+//! first-principles engine is tested beside that, in crates/research.
 #![allow(missing_docs, unsafe_code)]
 
 mod model;
 
 use ahv::air::{Atmosphere, Choking};
-use ahv::data::{Data, VehicleData};
-use ahv::gas::GasError;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::solve::Dual;
 use model::data;
 use proptest::prelude::*;
 
-/// Equivalence ratio, over 1 plus itself: both solve the same equations, each by its own iterations.
-const SAME: f64 = 1e-11;
 const ALTITUDE: f64 = 25_900.0;
 
 fn choking() -> Choking {
@@ -20,99 +16,12 @@ fn choking() -> Choking {
     Choking::new(&data.vehicle, &data.earth)
 }
 
-fn assert_same(what: &str, got: f64, expected: f64) {
-    assert!((got - expected).abs() <= SAME * (1.0 + expected), "{what}: {got} against {expected}");
-}
-
-/// The equivalence ratio at which the burner of the first-principles model chokes, by bisection.
-fn exact(data: &Data, mach: f64, altitude: f64, alpha: f64) -> Result<f64, GasError> {
-    let model = ShockExpansion::new(&data.vehicle, &data.earth);
-    let ahead = model.medium.ahead(&Atmosphere::new(&data.earth), mach, altitude);
-    let run = |phi| model.loads(&ahead, &Attitude { alpha, delta_e: 0.0, phi }, &|_| 0.0);
-    run(0.0)?;
-    let (mut low, mut high) = (0.0, 64.0);
-    while high - low > 1e-14 {
-        let middle = 0.5 * (low + high);
-        if middle == low || middle == high {
-            break;
-        }
-        match run(middle) {
-            Ok(_) => low = middle,
-            Err(GasError::ThermallyChoked { .. }) => high = middle,
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(low)
-}
-
-/// The same by the function under test.
-fn limit(data: &Data, mach: f64, altitude: f64, alpha: f64) -> f64 {
-    let sound_speed = Atmosphere::new(&data.earth).sound_speed(altitude);
-    Choking::new(&data.vehicle, &data.earth).margin(mach, alpha, sound_speed, 0.0)
-}
-
 #[test]
-fn verif_the_burner_chokes_where_that_of_the_first_principles_model_does() {
-    // From Mach 10.7 on the lip is below the bow shock at small incidence: it takes in less than
-    // `intake`, which looks at the shock layer alone, lets the fuel flow for.
-    let data = data();
-    let mut worst = 0.0_f64;
-    for altitude in [20_000.0, ALTITUDE, 40_000.0] {
-        for mach in (12..=22).map(|half| 0.5 * f64::from(half)) {
-            for degrees in -5..=10 {
-                let alpha = f64::from(degrees).to_radians();
-                let got = limit(&data, mach, altitude, alpha);
-                match exact(&data, mach, altitude, alpha) {
-                    Ok(expected) => {
-                        worst = worst.max((got - expected).abs());
-                        assert_same(&format!("Mach {mach}, {degrees} deg"), got, expected);
-                    }
-                    Err(GasError::Choked { .. }) => assert_eq!(got, 0.0, "{mach} {degrees}"),
-                    Err(error) => panic!("{error}"),
-                }
-            }
-        }
-    }
-    println!("largest deviation {worst:.1e}");
+fn verif_the_limit_falls_with_the_incidence_to_known_values() {
+    let sound_speed = Atmosphere::new(&data().earth).sound_speed(ALTITUDE);
     for (degrees, printed) in [(0.0_f64, "0.697"), (2.0, "0.655"), (5.0, "0.576")] {
-        let got = limit(&data, 8.0, ALTITUDE, degrees.to_radians());
+        let got = choking().margin(8.0, degrees.to_radians(), sound_speed, 0.0);
         assert_eq!(format!("{got:.3}"), printed, "Mach 8, {degrees} deg");
-    }
-}
-
-#[test]
-fn verif_far_outside_the_envelope_too_while_the_fore_body_meets_the_stream() {
-    let data = data();
-    let mut choked = 0;
-    for mach in [2.0, 3.0, 4.0, 5.0, 13.0, 17.0, 22.0, 28.0] {
-        for degrees in -6..=15 {
-            let alpha = f64::from(degrees).to_radians();
-            let got = limit(&data, mach, ALTITUDE, alpha);
-            match exact(&data, mach, ALTITUDE, alpha) {
-                Ok(expected) => assert_same(&format!("Mach {mach}, {degrees} deg"), got, expected),
-                Err(GasError::Choked { .. }) => {
-                    assert_eq!(got, 0.0, "{mach} {degrees}");
-                    choked += 1;
-                }
-                // Elsewhere on the vehicle.
-                Err(_) => (),
-            }
-        }
-    }
-    assert!(choked > 20, "{choked}");
-}
-
-#[test]
-fn verif_where_the_fore_body_turns_away_the_margin_is_on_the_safe_side() {
-    let data = data();
-    let lower = data.vehicle.outline.lower_angle_rad.value;
-    for mach in [4.0, 6.0, 8.0, 11.0, 15.0] {
-        let along = limit(&data, mach, ALTITUDE, -lower);
-        for degrees in [0.5, 1.0, 2.0, 4.0] {
-            let alpha = -lower - f64::to_radians(degrees);
-            assert_eq!(limit(&data, mach, ALTITUDE, alpha), along);
-            assert!(exact(&data, mach, ALTITUDE, alpha).unwrap() > along);
-        }
     }
 }
 
@@ -280,26 +189,18 @@ proptest! {
     }
 
     #[test]
-    fn property_it_holds_for_other_vehicles_and_gases(
+    fn property_other_vehicles_and_gases_raise_no_flag(
         lower in 0.02..0.3f64, duct in 0.3..3.0f64, contraction in 1.0..10.0f64,
         gamma in 1.2..1.66f64, mach in 3.0..25.0f64, turn in 1e-4..0.3f64,
     ) {
         let mut data = data();
-        let change = |vehicle: &mut VehicleData| {
-            vehicle.outline.lower_angle_rad.value = lower;
-            vehicle.engine.duct_height_m.value = duct;
-            vehicle.engine.nozzle_area_ratio.value = contraction;
-        };
-        change(&mut data.vehicle);
+        data.vehicle.outline.lower_angle_rad.value = lower;
+        data.vehicle.engine.duct_height_m.value = duct;
+        data.vehicle.engine.nozzle_area_ratio.value = contraction;
         data.earth.air.heat_capacity_ratio.value = gamma;
-        let mut got = f64::NAN;
-        let raised = flags::raised(|| got = limit(&data, mach, ALTITUDE, turn - lower));
+        let choking = Choking::new(&data.vehicle, &data.earth);
+        let raised = flags::raised(|| choking.margin(mach, turn - lower, 300.0, 0.0));
         prop_assert_eq!(raised, 0);
-        match exact(&data, mach, ALTITUDE, turn - lower) {
-            Ok(expected) => assert_same("other vehicle", got, expected),
-            Err(GasError::Choked { .. }) => prop_assert_eq!(got, 0.0),
-            Err(_) => (),
-        }
     }
 }
 

@@ -2,7 +2,6 @@
 
 mod binary;
 mod cross_check;
-mod icon;
 mod library;
 mod platform;
 mod related;
@@ -12,14 +11,13 @@ mod windows;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{BINARY, can_write, read, shown, target, write};
+use crate::workspace::{BINARY, can_write, read, root, shown, target, write};
 use crate::{documentation, licenses, say};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
 pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
-use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
 use std::env;
 use std::io::Cursor;
@@ -215,9 +213,8 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
     files.extend(licenses::collect()?);
-    let picture = icon::png()?;
-    files.extend(terminals::files(&picture)?);
-    files.insert("model.png".to_string(), picture);
+    files.extend(terminals::files()?);
+    files.insert("model.png".to_string(), icon("vehicle")?);
     let mut machines = Vec::new();
     for Library { platform, content, binary } in libraries {
         let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
@@ -227,6 +224,11 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     let page = documentation::html(&machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
+}
+
+/// A picture that the FMU carries.
+fn icon(name: &str) -> Result<Vec<u8>> {
+    read(&root().join(format!("build/icons/{name}.png")), BINARY)
 }
 
 /// What comes out when the FMU is flown; it is flown as it will be packaged.
@@ -263,7 +265,8 @@ fn write_fmu(files: Files, output: &Path) -> Result<()> {
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
     say!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
-    let digest: String = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
+    let digest: String =
+        hmac_sha256::Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
     say!("  sha256 {digest}")?;
     Ok(())
 }

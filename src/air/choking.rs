@@ -1,11 +1,11 @@
 //! How much fuel the burner can take: with more, its heat would slow the stream to the speed of
 //! sound, and no steady flow is left.
 //!
-//! The engine is that of [`crate::shock_expansion`], at run time and for every [`Scalar`]: shock of
-//! the fore-body, shock of the inlet, isentropic diffuser, heat at constant area. The capture is its
-//! capture too, also where the lip is below the bow shock, which [`crate::air::Intake`] leaves out. A
-//! burner chokes whatever the pressure, so the stream is told by its Mach number squared and its mass
-//! flux alone.
+//! The engine is that of the first-principles model (`shock_expansion` in crates/research), at run
+//! time and for every [`Scalar`]: shock of the fore-body, shock of the inlet, isentropic diffuser,
+//! heat at constant area. The capture is the same too, also where the lip is below the bow shock,
+//! which [`crate::air::Intake`] leaves out. A burner chokes whatever the pressure, so the stream is
+//! given by its Mach number squared and its mass flux alone.
 //!
 //! Where the fore-body turns away from the stream, the stream is taken to pass along it: an
 //! expansion would only raise the limit. The margin is continuous if the diffuser chokes before a

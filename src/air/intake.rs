@@ -5,7 +5,8 @@
 //! angle. The shock relations are those of hypersonic similarity (J. D. Anderson, Hypersonic and
 //! High-Temperature Gas Dynamics, 2nd ed., section 2.3), with the exact speed behind the shock along
 //! the stream. Where fore-body and shock enclose less than the lip sees, above Mach 10.7 at small
-//! incidence, this is too much by up to 4 %; elsewhere it is that of [`crate::shock_expansion`].
+//! incidence, this is too much by up to 4 %; elsewhere it is that of the first-principles model,
+//! `shock_expansion` in crates/research.
 
 use crate::data::{EarthData, VehicleData};
 use crate::solve::Scalar;

@@ -103,6 +103,7 @@ impl Linear {
 fn eigenvalues(mut matrix: DMatrix<f64>) -> Vec<Complex<f64>> {
     balancing::balance_parlett_reinsch(&mut matrix);
     let mut values: Vec<_> = matrix.complex_eigenvalues().iter().copied().collect();
-    values.sort_by(|a, b| a.norm().total_cmp(&b.norm()).then(a.im.total_cmp(&b.im)));
+    let size = |value: &Complex<f64>| libm::hypot(value.re, value.im);
+    values.sort_by(|a, b| size(a).total_cmp(&size(b)).then(a.im.total_cmp(&b.im)));
     values
 }

@@ -105,8 +105,11 @@ fn tidy_the_model_never_reads_the_published_tables() {
 fn tidy_files_have_one_job() {
     /// Lines; data tables and tests may be longer.
     const LIMIT: usize = 330;
-    for (path, text) in
-        sources("src").into_iter().chain(sources("build/src")).chain(sources("crates"))
+    for (path, text) in sources("src")
+        .into_iter()
+        .chain(sources("build/src"))
+        .chain(sources("crates/fmi/src"))
+        .chain(sources("crates/research/src"))
     {
         let lines = text.lines().count();
         assert!(lines <= LIMIT, "{} has {lines} lines", path.display());

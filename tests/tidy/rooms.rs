@@ -4,15 +4,13 @@ use crate::{code, root, sources};
 use std::path::Path;
 
 /// Rooms of the physics from the bottom up: each imports from itself and from those before it alone.
-const ROOMS: [&str; 13] = [
+const ROOMS: [&str; 11] = [
     "solve",
     "short",
     "error",
     "data",
     "structure",
     "air",
-    "gas",
-    "shock_expansion",
     "vehicle",
     "dynamics",
     "flight",

@@ -3,8 +3,9 @@
 use crate::failure::{Failure, Outcome};
 use crate::instance::{Instance, LARGEST};
 use crate::model::{InputDerivatives, Model, Simulation, Tangent};
-use crate::table::{self, MOST_KNOWNS, Role, SampleOf, Variable};
+use crate::table::{self, MOST_KNOWNS};
 use crate::values::{REAL, variable};
+use crate::variable::{Role, SampleOf, Variable};
 
 /// Highest derivative of an output, of a model with directional derivatives:
 /// `maxOutputDerivativeOrder`.

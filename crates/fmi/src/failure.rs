@@ -3,9 +3,9 @@
 use crate::instance::LARGEST;
 use crate::model::{ModelError, Remedy};
 use crate::short::short;
-use crate::table::Refused;
 use crate::v2::calls::{PHASES, Phase};
 use crate::v2::sys::{Status, StatusKind};
+use crate::variable::Refused;
 
 /// What a call of the standard comes to.
 pub type Outcome = Result<(), Failure>;

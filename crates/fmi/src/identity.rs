@@ -1,7 +1,8 @@
 //! The identity of a model.
 
+use crate::kinds::Kind;
 use crate::model::{About, Model};
-use crate::table::{Kind, Role, Variable};
+use crate::variable::{Role, Variable};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013B;

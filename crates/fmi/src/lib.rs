@@ -4,7 +4,7 @@
 //! | module | its job |
 //! |---|---|
 //! | [`model`] | the traits that a model implements |
-//! | [`table`] | the one table of variables: value reference = row |
+//! | [`Variable`], [`table`] | one variable; the one table of them: value reference = row |
 //! | [`identity`] | GUID and key of saved states |
 //! | [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
 //! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
@@ -29,6 +29,7 @@ pub mod failure;
 pub mod guard;
 pub mod identity;
 pub mod instance;
+mod kinds;
 pub mod log;
 pub mod model;
 #[cfg(feature = "package")]
@@ -40,8 +41,10 @@ mod steps;
 pub mod table;
 pub mod v2;
 pub mod values;
+mod variable;
 
+pub use kinds::{Dependencies, Kind, Unit};
 pub use model::{
     About, Exchange, InputDerivatives, Model, ModelError, Remedy, Saving, Simulation, Tangent,
 };
-pub use table::{Dependencies, Kind, Role, Unit, Variable};
+pub use variable::{Refused, Role, Variable};

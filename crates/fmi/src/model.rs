@@ -5,7 +5,7 @@
 //! that changes during initialisation starts the simulation anew.
 
 use crate::identity::hash_of_table;
-use crate::table::Variable;
+use crate::variable::Variable;
 use std::convert::Infallible;
 use std::fmt::{Debug, Display};
 

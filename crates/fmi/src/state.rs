@@ -20,8 +20,9 @@ use crate::failure::{Failure, Outcome};
 use crate::instance::{Experiment, Instance, Interface, LARGEST, Life, start};
 use crate::model::{InputDerivatives, Model, Saving, Simulation};
 use crate::pending::Pending;
-use crate::table::{Role, Variable, inputs};
+use crate::table::inputs;
 use crate::v2::calls::{PHASES, Phase};
+use crate::variable::{Role, Variable};
 
 const MAGIC: [u8; 8] = *b"FMUSTATE";
 const VERSION: u32 = 1;

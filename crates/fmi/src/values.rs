@@ -3,8 +3,10 @@
 use crate::exchange::check_state;
 use crate::failure::{Failure, Outcome};
 use crate::instance::Instance;
+use crate::kinds::Kind;
 use crate::model::{Exchange, Model, Simulation};
-use crate::table::{Kind, MOST_KNOWNS, Role, Variable};
+use crate::table::MOST_KNOWNS;
+use crate::variable::{Role, Variable};
 
 /// The standard's names of the types of values.
 pub(crate) const REAL: &str = "Real";

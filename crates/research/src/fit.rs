@@ -3,16 +3,16 @@
 mod regression;
 
 use crate::cli::Fit;
+use crate::shock_expansion::elastic::{self, COMPARED};
+use crate::shock_expansion::stream::Stream;
+use crate::shock_expansion::{Attitude, ShockExpansion};
 use ahv::air::Atmosphere;
+use ahv::data::Status;
 use ahv::data::{
-    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, Quantity, Status, VEHICLE,
-    VehicleData,
+    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, Quantity, VEHICLE, VehicleData,
 };
 use ahv::dynamics::trim::trim;
 use ahv::flight::Parameters;
-use ahv::shock_expansion::elastic::{self, COMPARED};
-use ahv::shock_expansion::stream::Stream;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::structure::{FLEXIBLE, Modes};
 use ahv::vehicle::{Build, Configuration, Vehicle, structure};
 use ahv_tool::table::{row, table};

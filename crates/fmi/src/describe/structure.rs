@@ -1,8 +1,10 @@
 //! Writes the ModelStructure: what depends on what.
 
 use super::xml::Xml;
+use crate::kinds::Dependencies;
 use crate::model::Model;
-use crate::table::{Dependencies, Role, Variable, known_rows, states};
+use crate::table::{known_rows, states};
+use crate::variable::{Role, Variable};
 use std::io;
 
 /// Index of a row in the ModelStructure, which counts from one.

@@ -1,9 +1,9 @@
 //! The polynomials of eq. (4), fitted to the first-principles model by least squares.
 
+use crate::gas::GasError;
+use crate::shock_expansion::stream::Stream;
+use crate::shock_expansion::{Attitude, ShockExpansion};
 use ahv::data::AeroData;
-use ahv::gas::GasError;
-use ahv::shock_expansion::stream::Stream;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 

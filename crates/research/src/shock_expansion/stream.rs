@@ -1,8 +1,8 @@
 //! A uniform stream of a given gas, and what walls and ducts make of it.
 
-use crate::air::Atmosphere;
-use crate::data::EarthData;
 use crate::gas::{Gas, GasError};
+use ahv::air::Atmosphere;
+use ahv::data::EarthData;
 
 /// The gas with what shocks do not ask for: its constant.
 #[derive(Debug, Clone, Copy)]

@@ -1,18 +1,23 @@
 //! The coefficient set `shock_expansion` against the model that it is a regression of.
 #![allow(missing_docs)]
 
+#[path = "../../../tests/model/mod.rs"]
 mod model;
 
+use ahv::air::curve_fits::Aero;
+
+use ahv::air::curve_fits::FORCE;
+
 use ahv::air::Atmosphere;
-use ahv::air::curve_fits::{Aero, FORCE, LIFT};
+use ahv::air::curve_fits::LIFT;
 use ahv::air::strip_theory::{Strips, derive};
 use ahv::data::AeroSet;
 use ahv::dynamics::trim::{Trim, trim};
-use ahv::shock_expansion::elastic::{COMPARED, deviation};
-use ahv::shock_expansion::stream::Stream;
-use ahv::shock_expansion::{Attitude, ShockExpansion};
 use ahv::structure::{Beam, FLEXIBLE, Modes, Shape};
 use ahv::vehicle::{Build, Configuration, Vehicle, structure};
+use ahv_research::shock_expansion::elastic::{COMPARED, deviation};
+use ahv_research::shock_expansion::stream::Stream;
+use ahv_research::shock_expansion::{Attitude, ShockExpansion};
 use model::{assert_close, build, data};
 
 /// Strips of uniform load in place of the true distribution, and one lift slope each: the share of

@@ -1,9 +1,10 @@
 //! Gas relations against printed tables and against the conservation laws they come from.
 #![allow(missing_docs)]
 
+#[path = "../../../tests/model/mod.rs"]
 mod model;
 
-use ahv::gas::{Gas, GasError};
+use ahv_research::gas::{Gas, GasError};
 use model::assert_close;
 use proptest::prelude::*;
 

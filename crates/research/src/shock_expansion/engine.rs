@@ -3,8 +3,8 @@
 //! The fuel's mass, 3 % of the air's at most, is neglected against it; its heat is not.
 
 use super::stream::{Medium, Stream};
-use crate::data::EngineData;
 use crate::gas::GasError;
+use ahv::data::EngineData;
 
 /// Duct and fuel.
 #[derive(Debug, Clone, Copy)]

@@ -125,11 +125,6 @@ impl Gas {
         libm::pow(self.total_temperature(mach), self.gamma / (self.gamma - 1.0))
     }
 
-    /// Stagnation density over density, eq. (45).
-    pub fn total_density(&self, mach: f64) -> f64 {
-        libm::pow(self.total_temperature(mach), 1.0 / (self.gamma - 1.0))
-    }
-
     /// Dynamic pressure over pressure.
     pub fn dynamic_pressure(&self, mach: f64) -> f64 {
         0.5 * self.gamma * mach * mach

@@ -1,10 +1,10 @@
-//! Elastic derivatives straight from the panels, to judge the strips of [`crate::air::strip_theory`].
+//! Elastic derivatives straight from the panels, to judge the strips of [`ahv::air::strip_theory`].
 
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
-use crate::air::curve_fits::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
 use crate::gas::GasError;
-use crate::structure::{Beam, Modes};
+use ahv::air::curve_fits::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
+use ahv::structure::{Beam, Modes};
 
 /// Modal coordinate (m), and its rate over the speed, of the central differences: bends of 1e-4
 /// rad, so that truncation and rounding both stay below 1e-6.
@@ -12,7 +12,7 @@ const STEP: f64 = 1e-4;
 
 impl ShockExpansion {
     /// Elastic terms of lift, drag, moment and modal forces around an attitude, in the units of
-    /// [`crate::air::strip_theory::derive`].
+    /// [`ahv::air::strip_theory::derive`].
     ///
     /// # Errors
     /// [`GasError`] where the flow does not exist.

@@ -9,7 +9,7 @@
 //! the free stream, and the flow of momentum through inlet and exit. A part of this is called
 //! thrust; whatever is not, is lift, drag and moment, so nothing is lost or counted twice.
 //!
-//! Bending changes the local incidence (see [`crate::air::strip_theory`]): the stream turns at the nose
+//! Bending changes the local incidence (see [`ahv::air::strip_theory`]): the stream turns at the nose
 //! through a shock, then follows the wall without losses (the shock-expansion method: Eggers,
 //! Syvertson and Kraus, NACA Report 1123). Panels keep their undeformed normals and places.
 
@@ -18,8 +18,8 @@ pub mod engine;
 pub mod stream;
 pub mod surface;
 
-use crate::data::{EarthData, VehicleData};
 use crate::gas::GasError;
+use ahv::data::{EarthData, VehicleData};
 use engine::Engine;
 use stream::{Medium, Stream};
 use surface::{Force, Wall};
