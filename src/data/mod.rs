@@ -19,7 +19,7 @@ pub use files::{
     Actuation, AeroData, AirData, BeamData, Defaults, Earth, EarthData, EnvelopeData, Geometry,
     Inertia, Mass, PolynomialData, Reference, TankData, VehicleData,
 };
-pub use quantity::{Quantity, Status};
+pub use quantity::{Origin, Quantity, Status};
 pub use shape::{EngineData, Outline};
 pub use validate::DataFile;
 pub(crate) use validate::MAX_LAYERS;

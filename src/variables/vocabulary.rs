@@ -8,27 +8,27 @@ use fmi_model::{Dependencies, Kind, Unit, Variable};
 /// Degrees per radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
-pub(super) const ONE: Unit = Unit::ONE;
-pub(super) const METRE: Unit = Unit::new("m", Some("Length"), [0, 1, 0, 0]);
+pub(super) const ONE: &Unit = Unit::ONE;
+pub(super) const METRE: &Unit = &Unit::new("m", Some("Length"), [0, 1, 0, 0]);
 /// Slope per deflection: an angle over a length.
-pub(super) const SLOPE: Unit = Unit::new("rad/m", None, [0, -1, 0, 1]);
-pub(super) const SPEED: Unit = Unit::new("m/s", Some("Velocity"), [0, 1, -1, 0]);
-pub(super) const ACCELERATION: Unit = Unit::new("m/s2", Some("Acceleration"), [0, 1, -2, 0]);
-pub(super) const ANGLE: Unit =
-    Unit::new("rad", Some("Angle"), [0, 0, 0, 1]).displayed_as("deg", DEGREES);
-pub(super) const ANGULAR_RATE: Unit =
-    Unit::new("rad/s", Some("AngularVelocity"), [0, 0, -1, 1]).displayed_as("deg/s", DEGREES);
-pub(super) const ANGULAR_ACCELERATION: Unit =
-    Unit::new("rad/s2", Some("AngularAcceleration"), [0, 0, -2, 1]);
+pub(super) const SLOPE: &Unit = &Unit::new("rad/m", None, [0, -1, 0, 1]);
+pub(super) const SPEED: &Unit = &Unit::new("m/s", Some("Velocity"), [0, 1, -1, 0]);
+pub(super) const ACCELERATION: &Unit = &Unit::new("m/s2", Some("Acceleration"), [0, 1, -2, 0]);
+pub(super) const ANGLE: &Unit =
+    &Unit::new("rad", Some("Angle"), [0, 0, 0, 1]).displayed_as("deg", DEGREES);
+pub(super) const ANGULAR_RATE: &Unit =
+    &Unit::new("rad/s", Some("AngularVelocity"), [0, 0, -1, 1]).displayed_as("deg/s", DEGREES);
+pub(super) const ANGULAR_ACCELERATION: &Unit =
+    &Unit::new("rad/s2", Some("AngularAcceleration"), [0, 0, -2, 1]);
 /// Frequencies share the dimension of an angular rate but are not shown in degrees.
-pub(super) const FREQUENCY: Unit = Unit::new("rad/s", Some("AngularFrequency"), [0, 0, -1, 1]);
-pub(super) const FORCE_PER_WIDTH: Unit = Unit::new("N/m", Some("ForcePerWidth"), [1, 0, -2, 0]);
-pub(super) const MOMENT_PER_WIDTH: Unit = Unit::new("N", Some("MomentPerWidth"), [1, 1, -2, 0]);
-pub(super) const INERTIA_PER_WIDTH: Unit = Unit::new("kg.m", None, [1, 1, 0, 0]);
-pub(super) const MASS_PER_WIDTH: Unit = Unit::new("kg/m", Some("MassPerWidth"), [1, -1, 0, 0]);
-pub(super) const MASS_FLOW_PER_WIDTH: Unit =
-    Unit::new("kg/(m.s)", Some("MassFlowPerWidth"), [1, -1, -1, 0]);
-pub(super) const PRESSURE: Unit = Unit::new("Pa", Some("Pressure"), [1, -1, -2, 0]);
+pub(super) const FREQUENCY: &Unit = &Unit::new("rad/s", Some("AngularFrequency"), [0, 0, -1, 1]);
+pub(super) const FORCE_PER_WIDTH: &Unit = &Unit::new("N/m", Some("ForcePerWidth"), [1, 0, -2, 0]);
+pub(super) const MOMENT_PER_WIDTH: &Unit = &Unit::new("N", Some("MomentPerWidth"), [1, 1, -2, 0]);
+pub(super) const INERTIA_PER_WIDTH: &Unit = &Unit::new("kg.m", None, [1, 1, 0, 0]);
+pub(super) const MASS_PER_WIDTH: &Unit = &Unit::new("kg/m", Some("MassPerWidth"), [1, -1, 0, 0]);
+pub(super) const MASS_FLOW_PER_WIDTH: &Unit =
+    &Unit::new("kg/(m.s)", Some("MassFlowPerWidth"), [1, -1, -1, 0]);
+pub(super) const PRESSURE: &Unit = &Unit::new("Pa", Some("Pressure"), [1, -1, -2, 0]);
 
 pub(super) const fn dependent(mask: u64) -> Dependencies {
     Dependencies::dependent(mask)
@@ -69,7 +69,7 @@ type Row = Variable<Setup>;
 pub(super) const fn input(
     number: usize,
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     description: &'static str,
 ) -> Row {
     Variable::input(number, name, unit, description)
@@ -77,7 +77,7 @@ pub(super) const fn input(
 
 pub(super) const fn output(
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     description: &'static str,
     dependencies: Dependencies,
     get: fn(&Sample) -> f64,
@@ -88,7 +88,7 @@ pub(super) const fn output(
 pub(super) const fn output_state(
     number: usize,
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     description: &'static str,
 ) -> Row {
     Variable::output_state(number, name, unit, description).with_nominal(NOMINAL[number])
@@ -97,7 +97,7 @@ pub(super) const fn output_state(
 pub(super) const fn local_state(
     number: usize,
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     description: &'static str,
 ) -> Row {
     Variable::local_state(number, name, unit, description).with_nominal(NOMINAL[number])
@@ -106,7 +106,7 @@ pub(super) const fn local_state(
 pub(super) const fn derivative(
     number: usize,
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     dependencies: Dependencies,
 ) -> Row {
     Variable::derivative(number, name, unit, dependencies)
@@ -125,7 +125,7 @@ pub(super) const fn parameter(
 
 pub(super) const fn calculated(
     name: &'static str,
-    unit: Unit,
+    unit: &'static Unit,
     description: &'static str,
     get: fn(&Flight) -> f64,
 ) -> Row {

@@ -15,7 +15,7 @@ use std::process::{Command, Stdio};
 /// The library for this machine, linked as Cargo does: it needs the C library of this machine.
 pub fn for_host() -> Result<PathBuf> {
     let mut command = cargo();
-    command.arg("build");
+    command.arg("rustc");
     compile(command, host()?, "host", Vec::new())
 }
 
@@ -31,7 +31,7 @@ pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
     let mut command = Command::new(zig.programs.join("cargo-zigbuild"));
     command
         .current_dir(root())
-        .args(["zigbuild", "--target", &format!("{}.{}.{}", LINUX.triple, GLIBC.0, GLIBC.1)])
+        .args(["rustc", "--target", &format!("{}.{}.{}", LINUX.triple, GLIBC.0, GLIBC.1)])
         .env("CARGO_ZIGBUILD_PYTHON_PATH", &zig.python)
         .env("CARGO_ZIGBUILD_CACHE_DIR", caches.join("zigbuild"))
         .env("ZIG_GLOBAL_CACHE_DIR", caches.join("global"))
@@ -46,7 +46,7 @@ pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
     compile(toolchain.command, WINDOWS, WINDOWS.name, flags)
 }
 
-/// Runs a `cargo build` with our options; where Cargo put the library.
+/// Runs a `cargo rustc` with our options; where Cargo put the library.
 ///
 /// Every kind of build has a target directory of its own, because their compilers and flags
 /// differ, and would otherwise overwrite each other.
@@ -57,7 +57,9 @@ fn compile(
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
     command
-        .args(["--release", "--package", "ahv-fmu", "--lib"])
+        // A library for C alone can be optimised together with what it is made of: 4 % smaller.
+        .args(["--release", "--package", "ahv-fmu", "--lib", "--crate-type", "cdylib"])
+        .args(["--config", "profile.release.lto='fat'"])
         .args(["--config", "profile.release.strip='symbols'"])
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")

@@ -30,7 +30,7 @@ pub fn toolchain() -> Result<Toolchain> {
     let own = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
     let (mut command, std) = if has_target(&own) {
         let mut command = cargo();
-        command.arg("build");
+        command.arg("rustc");
         (command, None)
     } else {
         let (command, std) = debian().map_err(|error| missing(&format!("{error:#}")))?;
@@ -66,7 +66,7 @@ fn debian() -> Result<(Command, PathBuf)> {
     let mut command = Command::new(program);
     command
         .current_dir(root())
-        .args(["build", "-Zbuild-std=std,panic_unwind"])
+        .args(["rustc", "-Zbuild-std=std,panic_unwind"])
         .env("RUSTC", rustc)
         // The released compiler refuses -Z without it.
         .env("RUSTC_BOOTSTRAP", "1")

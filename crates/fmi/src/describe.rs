@@ -115,7 +115,7 @@ fn units<M: Model>() -> Vec<Unit> {
         let Kind::Real(unit) = variable.kind else { continue };
         match units.iter_mut().find(|known| known.name == unit.name) {
             Some(known) => known.display = known.display.or(unit.display),
-            None => units.push(unit),
+            None => units.push(*unit),
         }
     }
     units

@@ -16,9 +16,9 @@ pub struct Unit {
 
 impl Unit {
     /// The unit of pure numbers.
-    pub const ONE: Self = Self { name: "1", quantity: None, base: [0; 4], display: None };
+    pub const ONE: &Self = &Self::new("1", None, [0; 4]);
     /// Seconds.
-    pub const SECOND: Self = Self::new("s", Some("Time"), [0, 0, 1, 0]);
+    pub const SECOND: &Self = &Self::new("s", Some("Time"), [0, 0, 1, 0]);
 
     /// A unit that is shown as it is.
     pub const fn new(name: &'static str, quantity: Option<&'static str>, base: [i32; 4]) -> Self {
@@ -35,7 +35,7 @@ impl Unit {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
     /// A real number in a unit.
-    Real(Unit),
+    Real(&'static Unit),
     /// True or false.
     Boolean,
     /// One of a list of named numbers: name of the type, then (name, number, description).

@@ -68,7 +68,7 @@ impl<M: Model> Copy for Variable<M> {}
 impl<M: Model> Variable<M> {
     const fn real(
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
         role: Role<M>,
         dependencies: Dependencies,
@@ -81,7 +81,7 @@ impl<M: Model> Variable<M> {
     pub const fn input(
         number: usize,
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
     ) -> Self {
         Self::real(name, unit, description, Role::Input(number), Dependencies::NONE)
@@ -90,7 +90,7 @@ impl<M: Model> Variable<M> {
     /// An output.
     pub const fn output(
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
         dependencies: Dependencies,
         get: fn(&SampleOf<M>) -> f64,
@@ -102,7 +102,7 @@ impl<M: Model> Variable<M> {
     pub const fn output_state(
         number: usize,
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
     ) -> Self {
         let itself = Dependencies::constant(1 << number);
@@ -113,7 +113,7 @@ impl<M: Model> Variable<M> {
     pub const fn local_state(
         number: usize,
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
     ) -> Self {
         Self::real(name, unit, description, Role::LocalState(number), Dependencies::NONE)
@@ -123,7 +123,7 @@ impl<M: Model> Variable<M> {
     pub const fn derivative(
         number: usize,
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         dependencies: Dependencies,
     ) -> Self {
         let description = "Time derivative of the state";
@@ -153,7 +153,7 @@ impl<M: Model> Variable<M> {
     /// A parameter that is computed when the simulation starts.
     pub const fn calculated(
         name: &'static str,
-        unit: Unit,
+        unit: &'static Unit,
         description: &'static str,
         get: fn(&M::Simulation) -> f64,
     ) -> Self {

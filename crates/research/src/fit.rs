@@ -124,7 +124,8 @@ fn line(key: &str, value: &str, unit: &str, source: &str, status: &str) -> Strin
 
 fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
     let value = format!("{:?}", quantity.value);
-    line(key, &value, &quantity.unit, &quantity.source, status(quantity.status))
+    let origin = quantity.origin.as_ref().expect("a quantity read from TOML has its origin");
+    line(key, &value, &origin.unit, &origin.source, status(origin.status))
 }
 
 /// The data file, and how good its elastic terms are. Incidence and elevator of the elastic derivatives

@@ -25,7 +25,7 @@ pub struct Decay {
     der_x: [f64; 1],
 }
 
-const PER_SECOND: Unit = Unit::new("1/s", None, [0, 0, -1, 0]);
+const PER_SECOND: &Unit = &Unit::new("1/s", None, [0, 0, -1, 0]);
 const ON_STATE_AND_INPUT: u64 = 0b11;
 
 impl Model for Dahlquist {
