@@ -1,7 +1,8 @@
 //! The library loaded and unloaded again and again, and memory after many instances.
 //!
-//! One test only: a second one in this process would keep the library loaded.
+//! A binary with one test: another one in this process would keep the library loaded.
 
+#[path = "abi/common/mod.rs"]
 mod common;
 
 use common::{Api, Slave};

@@ -1,11 +1,12 @@
 //! What a demanding host grants a call: no floating-point exception, as it would trap it, and little stack.
 //!
+//! A binary of its own: what it looks for ends the process.
 //! The compiler vectorises and speculates in a release build only, so `cargo ahv test` runs this in both.
 
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 #![allow(unsafe_code)]
 
-#[path = "../common/mod.rs"]
+#[path = "../abi/common/mod.rs"]
 mod common;
 mod edges;
 mod flights;

@@ -1,5 +1,5 @@
 //! Shared by the integration tests.
-#![allow(dead_code, missing_docs)]
+#![allow(dead_code)]
 
 use ahv::data::{AeroSet, Data};
 use ahv::flight::{Flight, Parameters, Setup};

@@ -1,5 +1,4 @@
 //! The house rules that a compiler cannot hold.
-#![allow(missing_docs)]
 
 mod pages;
 mod rooms;

@@ -6,7 +6,7 @@ Keys of the file:
   element_m, stiffness[], density[]              elements of the beam
   oscillators[]: {node, mass, stiffness}         sloshing masses
   omega_rad_per_s[]                              our frequencies
-Our frequencies hold 1e-12 (tests/verif_modes.rs), so they serve as the truth.
+Our frequencies hold 1e-12 (tests/physics/structure/modes.rs), so they serve as the truth.
 """
 
 import json

@@ -1,5 +1,5 @@
 //! C types of FMI 2.0 (`fmi2TypesPlatform.h`, `fmi2FunctionTypes.h`), written by hand and proved
-//! against the official headers by `tests/abi_signatures.rs`.
+//! against the official headers by `tests/headers.rs`.
 
 use core::ffi::{c_char, c_double, c_int, c_uint, c_void};
 

@@ -1,0 +1,195 @@
+//! The exponential method on the vehicle: its coordinates against the Jacobian, its flights against
+//! DOP853.
+
+use crate::model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight, flight_with, setup};
+use ahv::dynamics::linear::Linear;
+use ahv::dynamics::trim::Trim;
+use ahv::flight::method;
+use ahv::solve::{
+    Arrival, Attempt, DOP853, Decoupling, Exponential, Integrator, Method, System, Trial,
+};
+use ahv::structure::MODES;
+use ahv::vehicle::{Configuration, Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
+use proptest::prelude::*;
+
+/// How well the coordinates go there and back, and L meets the Jacobian, in typical sizes.
+const ROUNDING: f64 = 1e-9;
+
+#[test]
+fn verif_the_coordinates_decouple_every_vehicle() {
+    for build in builds() {
+        let flight = flight_with(|parameters| parameters.build = build);
+        let (vehicle, trim) = (flight.vehicle(), flight.trim());
+        let jacobian = Linear::new(vehicle, &trim.state, &trim.control).a;
+        let slow = RIGID - 2;
+        let decoupling =
+            Decoupling::<STATES, { RIGID - 2 }, { 2 + 2 * MODES }>::new(&jacobian, &NOMINAL);
+        for j in slow..vehicle.states() {
+            let mut x = [0.0; STATES];
+            x[j] = NOMINAL[j];
+            let there = decoupling.to_coordinates(&x);
+            let mut pair = [0.0; STATES];
+            pair[j - slow] = NOMINAL[j];
+            assert_ne!(there, pair, "{build:?}: the coordinates are not pairs of states");
+            let back = decoupling.to_states(&there);
+            let moved = decoupling.to_states(&decoupling.blocks.times(&there));
+            for i in 0..vehicle.states() {
+                assert!((back[i] - x[i]).abs() < ROUNDING * NOMINAL[i], "{build:?}: {j} to {i}");
+                let expected = jacobian[(i, j)] * NOMINAL[j];
+                // A rate of 100 rad/s is usual.
+                let off = (moved[i] - expected).abs() / (100.0 * NOMINAL[i]);
+                assert!(off < ROUNDING, "{build:?}: L[{i}, {j}] is {}, not {expected}", moved[i]);
+            }
+        }
+    }
+}
+
+/// A vehicle under controls that do not move.
+struct Held<'a>(&'a Vehicle, Control, Gust);
+
+impl System<STATES> for Held<'_> {
+    fn derivatives(&self, _: f64, x: &State) -> State {
+        self.0.derivatives(x, &self.1, self.2)
+    }
+    fn holds(&self, _: f64, x: &State) -> bool {
+        self.0.holds(x, &self.1, self.2)
+    }
+    fn nominal(&self) -> &State {
+        &NOMINAL
+    }
+}
+
+/// The state after some equal steps, or where the vehicle leaves its envelope.
+fn flown(
+    method: &mut impl Method<STATES>,
+    system: &Held,
+    start: &State,
+    tolerance: f64,
+    steps: u32,
+) -> (State, Arrival) {
+    let (mut integrator, mut x) = (Integrator::new(tolerance, 1e-3), *start);
+    let mut slope = None;
+    for step in 0..steps {
+        let ends = [step, step + 1].map(|i| FLIGHT_S * f64::from(i) / f64::from(steps));
+        let arrival = integrator.advance(method, system, &mut x, ends, &mut slope);
+        if arrival != Arrival::Complete {
+            return (x, arrival);
+        }
+    }
+    (x, Arrival::Complete)
+}
+
+/// The method in the registers that every processor has.
+struct Portable<M>(M);
+
+impl<const N: usize, const SLOW: usize, const FAST: usize> Method<N>
+    for Portable<Exponential<N, SLOW, FAST>>
+{
+    fn longest(&self) -> f64 {
+        self.0.longest()
+    }
+    fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
+        self.0.portable(attempt)
+    }
+}
+
+const FLIGHT_S: f64 = 0.4;
+/// Error of a flight over its tolerance: of some tens of steps, in an unstable vehicle.
+const GROWTH: f64 = 100.0;
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 96, ..ProptestConfig::default() })]
+
+    #[test]
+    fn verif_flights_far_from_trim_are_those_of_dop853(
+        configuration in 0..3_usize,
+        burn in proptest::bool::weighted(0.1),
+        fuel in 0.1..1.0_f64,
+        disturbance in prop::array::uniform12(-4.0..4.0_f64),
+        controls in [-0.1..0.1_f64, 0.0..0.5_f64],
+        gust in prop_oneof![Just([0.0; GUSTS]), [-10.0..10.0_f64, -10.0..10.0_f64]],
+        steps in prop_oneof![Just(1_u32), Just(4), Just(40), Just(400)],
+        digits in 5..10_i32,
+    ) {
+        let mut parameters = setup(&[]).parameters;
+        parameters.build.configuration = CONFIGURATIONS[configuration];
+        parameters.build.fuel_fraction = fuel;
+        parameters.build.fuel_burn = burn;
+        let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
+        let trim = ahv::dynamics::trim::trim(&vehicle, &parameters.build.condition).unwrap();
+        let mut start = trim.state;
+        for i in RIGID - 2..vehicle.states() {
+            start[i] += disturbance[i + 2 - RIGID] * NOMINAL[i];
+        }
+        let control = [trim.control[0] + controls[0], controls[1]];
+        prop_assume!(vehicle.holds(&start, &control, gust));
+        let system = Held(&vehicle, control, gust);
+        let tolerance = 10.0_f64.powi(-digits);
+        let method = method(&vehicle, &trim);
+        let ours = flown(&mut method.clone(), &system, &start, tolerance, steps);
+        let portable = flown(&mut Portable(method), &system, &start, tolerance, steps);
+        prop_assert_eq!(ours.0, portable.0, "wider registers change no bit");
+        let exact = flown(&mut &DOP853, &system, &start, 1e-12, steps);
+        // Those that leave do so at slightly different instants.
+        prop_assume!(ours.1 == Arrival::Complete && exact.1 == Arrival::Complete);
+        let off = distance(&ours.0, &exact.0);
+        prop_assert!(off < GROWTH * tolerance, "off by {} tolerances", off / tolerance);
+    }
+
+    #[test]
+    fn verif_a_flight_goes_on_bit_for_bit_in_another_instance(
+        lengths in prop::collection::vec(1e-4..0.08_f64, 1..12),
+        elevator in -5e-3..5e-3_f64,
+    ) {
+        // Functions of the step's length are kept between steps: they must not decide anything.
+        let mut one = flight(Configuration::SloshBeam);
+        one.set_input(0, elevator);
+        let mut time = 0.0;
+        for length in lengths {
+            time += length;
+            let mut other = flight(Configuration::SloshBeam);
+            other.rewind(&one.snapshot());
+            let ends = (one.advance(time), other.advance(time));
+            prop_assert_eq!(ends.0.is_ok(), ends.1.is_ok());
+            prop_assert_eq!(one.snapshot(), other.snapshot());
+        }
+    }
+}
+
+#[test]
+fn verif_what_rests_arrives_at_once_however_long_the_step() {
+    // So well trimmed that the acceleration left, if any, is below the last digit of the speed.
+    let mut resting = 0;
+    for altitude in (0..30).map(|i| 25_000.0 + 100.0 * f64::from(i)) {
+        for aero in AERO_SETS {
+            let mut flight = flight_with(|parameters| {
+                parameters.build.configuration = Configuration::Rigid;
+                parameters.build.aero = aero;
+                parameters.build.condition.altitude = altitude;
+            });
+            let start = *flight.state();
+            resting += usize::from(flight.advance(1e300).is_ok() && *flight.state() == start);
+        }
+    }
+    assert!(resting >= 2, "{resting}");
+}
+
+#[test]
+fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
+    // The lapse rate jumps at 32 km of geopotential altitude, 32.16 km above the ground.
+    let mut parameters = setup(&[]).parameters;
+    let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
+    parameters.build.condition.altitude = 32_150.0;
+    let mut start = parameters.build.condition.start(&vehicle.atmosphere);
+    start[2] = 0.03;
+    start[3] = 0.02;
+    let trim = Trim { state: start, control: [0.1, 0.3] };
+    let system = Held(&vehicle, trim.control, [0.0; GUSTS]);
+    for steps in [1, 40] {
+        let ours = flown(&mut method(&vehicle, &trim), &system, &start, 1e-8, steps).0;
+        let exact = flown(&mut &DOP853, &system, &start, 1e-13, steps).0;
+        assert!(exact[1] > 32_165.0, "the flight crosses the edge: {} m", exact[1]);
+        let off = distance(&ours, &exact);
+        assert!(off < GROWTH * 1e-8, "off by {off:e}");
+    }
+}

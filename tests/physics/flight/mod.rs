@@ -1,0 +1,5 @@
+//! Whole flights.
+
+mod burning;
+mod method;
+mod offsets;

@@ -1,0 +1,13 @@
+//! The physics, room by room as in `src`, against closed forms and independent references.
+
+mod air;
+mod data;
+mod dynamics;
+mod explicit;
+mod flight;
+#[path = "../model/mod.rs"]
+mod model;
+mod solve;
+mod structure;
+mod variables;
+mod vehicle;

@@ -1,0 +1,4 @@
+//! Methods on problems with known answers.
+
+mod exponential;
+mod integrate;

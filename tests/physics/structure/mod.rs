@@ -1,0 +1,7 @@
+//! Beam, liquid and modes.
+
+mod beam;
+mod damping;
+mod modes;
+mod reference;
+mod tanks;

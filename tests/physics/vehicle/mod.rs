@@ -1,0 +1,6 @@
+//! From data and options to a vehicle.
+
+mod body;
+mod edited;
+mod factors;
+mod fuel_table;
