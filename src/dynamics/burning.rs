@@ -2,7 +2,7 @@
 
 use super::loads::Met;
 use crate::solve::Scalar;
-use crate::vehicle::{Airframe, Burn, Control, FUEL, Gust, RIGID, State, Vehicle};
+use crate::vehicle::{Airframe, Burn, Control, FUEL, Gust, PHI, State, Vehicle, eta, eta_dot};
 
 impl Vehicle {
     /// Rates while fuel burns, and what `f` makes of them and of those without the turning of the shapes.
@@ -29,21 +29,19 @@ impl Vehicle {
         // Density times speed.
         let mass_flux = met.loads.qbar * 2.0 * met.per_speed;
         let fuel_rate =
-            -self.intake.fuel_flow(mass_flux, met.loads.mach, met.coefficients.inflow, u[1]);
+            -self.intake.fuel_flow(mass_flux, met.loads.mach, met.coefficients.inflow, u[PHI]);
         rates[FUEL] = fuel_rate;
         let mut felt = rates;
         for i in 0..self.modes {
             let (mut stiffness, mut turning) = (S::constant(0.0), S::constant(0.0));
             for k in 0..self.modes {
-                let (eta, eta_dot) = (x[RIGID + 2 * k], x[RIGID + 2 * k + 1]);
                 if k != i {
-                    stiffness = stiffness + eta * airframe.stiffness[i][k];
+                    stiffness = stiffness + x[eta(k)] * airframe.stiffness[i][k];
                 }
-                turning = turning + fuel_rate * 2.0 * eta_dot * airframe.turning[i][k];
+                turning = turning + fuel_rate * 2.0 * x[eta_dot(k)] * airframe.turning[i][k];
             }
-            let rate = RIGID + 2 * i + 1;
-            felt[rate] = felt[rate] - stiffness;
-            rates[rate] = felt[rate] - turning;
+            felt[eta_dot(i)] = felt[eta_dot(i)] - stiffness;
+            rates[eta_dot(i)] = felt[eta_dot(i)] - turning;
         }
         f(&airframe, met, [rates, felt])
     }

@@ -8,7 +8,7 @@ use crate::air::curve_fits::{
     ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
 };
 use crate::solve::{Over, Scalar};
-use crate::vehicle::{Control, RIGID, State};
+use crate::vehicle::{Control, Q, State, eta, eta_dot};
 use multiversion::multiversion;
 
 /// Adds a term to each of some quantities.
@@ -51,11 +51,11 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
 ) -> Coefficients<S> {
     let mut elastic = [S::constant(0.0); ANSWERS];
     for (k, [per_eta, per_rate]) in terms.per.iter().enumerate() {
-        add(&mut elastic, x[RIGID + 2 * k], per_eta);
-        add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
+        add(&mut elastic, x[eta(k)], per_eta);
+        add(&mut elastic, x[eta_dot(k)] * per_speed, per_rate);
     }
-    add(&mut elastic, x[4] * per_speed, &terms.pitch_rate);
-    let (delta_e, phi, body) = (u[0], u[1], alpha + elastic[INCIDENCE]);
+    add(&mut elastic, x[Q] * per_speed, &terms.pitch_rate);
+    let ([delta_e, phi], body) = (*u, alpha + elastic[INCIDENCE]);
     let inflow = body + elastic[INFLOW];
     let incidence = [body, body, body, inflow];
     let own = [elastic[LIFT], elastic[DRAG], elastic[MOMENT], S::constant(0.0)];

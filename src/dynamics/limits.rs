@@ -4,7 +4,7 @@ use super::airflow::Stream;
 use crate::air::{Limited, tightest};
 use crate::structure::{FLEXIBLE, SLOSH};
 use crate::vehicle::{
-    Airframe, Control, FASTEST_GUST, FUEL, Gust, STATE_NAMES, STATES, State, Vehicle,
+    Airframe, Control, FASTEST_GUST, FUEL, Gust, H, STATE_NAMES, STATES, State, V, Vehicle,
 };
 
 /// Outputs that show the displacement of the liquid in the fore and aft tank.
@@ -31,8 +31,8 @@ pub fn is_finite(x: &State) -> bool {
 /// beyond the region in which they hold.
 pub fn numberless(x: &State) -> Option<Limited> {
     let least = |i: usize| match i {
-        0 => SLOWEST,
-        1 => LOWEST,
+        V => SLOWEST,
+        H => LOWEST,
         _ => -FAR,
     };
     (0..STATES)
@@ -48,9 +48,9 @@ impl Vehicle {
     }
 
     /// Controls cut to what the actuators can do.
-    pub fn saturate(&self, u: Control) -> Control {
+    pub fn saturate(&self, [delta_e, phi]: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.ranges();
-        [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+        [delta_e.clamp(least, largest), phi.clamp(lean, rich)]
     }
 
     /// A gust cut to the fastest.
@@ -66,7 +66,7 @@ impl Vehicle {
     /// Altitude, speed through the air and incidence to it.
     fn as_met(x: &State, gust: Gust) -> [f64; 3] {
         let Stream { speed, incidence, .. } = Stream::new(x, gust);
-        [x[1], speed, incidence]
+        [x[H], speed, incidence]
     }
 
     /// Calls `f` with the airframe at a state.

@@ -1,7 +1,7 @@
 //! Linearisation, poles and transmission zeros (Tables 2 and 3).
 
 use crate::solve::Dual;
-use crate::vehicle::{CONTROLS, Control, GUSTS, Gust, STATES, State, Vehicle};
+use crate::vehicle::{CONTROLS, Control, GAMMA, GUSTS, Gust, STATES, State, V, Vehicle};
 use nalgebra::{Complex, DMatrix, linalg::balancing};
 
 /// x' = A x + B u, y = C x; u = [delta_e, phi], y = [V, a flight-path angle]. Only the states in use.
@@ -16,7 +16,7 @@ pub struct Linear {
 }
 
 /// Rows of the state that are V and gamma.
-pub const OUTPUT_STATES: [usize; 2] = [0, 2];
+pub const OUTPUT_STATES: [usize; 2] = [V, GAMMA];
 
 /// A direction from a point, as dual numbers.
 fn dual<const N: usize>([value, direction]: [&[f64; N]; 2]) -> [Dual<1>; N] {
@@ -57,8 +57,8 @@ impl Linear {
         Self {
             a: DMatrix::from_fn(n, n, |row, column| by_state[column].0[row]),
             b: DMatrix::from_fn(n, CONTROLS, |row, column| by_control[column].0[row]),
-            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| match row {
-                0 => f64::from(column == 0),
+            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| match OUTPUT_STATES[row] {
+                V => f64::from(column == V),
                 _ => gamma(column),
             }),
         }

@@ -3,7 +3,7 @@
 use super::airflow::Stream;
 use super::coefficients::{Coefficients, coefficients};
 use crate::solve::{Over, Scalar};
-use crate::vehicle::{Airframe, Control, FUEL, GUSTS, Gust, State, Vehicle};
+use crate::vehicle::{Airframe, Control, FUEL, GUSTS, Gust, H, PHI, State, Vehicle};
 
 /// Forces on the vehicle, per metre of width.
 #[derive(Debug, Clone, Copy)]
@@ -71,7 +71,7 @@ impl Vehicle {
     ) -> Met<S> {
         let stream = Stream::new(x, gust);
         let (speed, alpha, (sin, cos)) = (stream.speed, stream.incidence, stream.axis);
-        let air = self.atmosphere.air(x[1]);
+        let air = self.atmosphere.air(x[H]);
         let qbar = air.density * speed * speed * 0.5;
         let force = qbar * self.aero.area;
         let per_speed = S::constant(1.0) / speed;
@@ -96,6 +96,6 @@ impl Vehicle {
     pub(super) fn choking_margin<S: Scalar>(&self, met: &Met<S>, u: &Control<S>) -> S {
         let inflow = met.coefficients.inflow;
         let sound_speed = met.stream.speed / met.loads.mach;
-        self.choking.margin(met.loads.mach, inflow, sound_speed, u[1])
+        self.choking.margin(met.loads.mach, inflow, sound_speed, u[PHI])
     }
 }

@@ -4,7 +4,7 @@ use super::coefficients::add;
 use super::loads::Met;
 use crate::solve::{Over, Scalar};
 use crate::structure::MODES;
-use crate::vehicle::{Airframe, RIGID, State};
+use crate::vehicle::{Airframe, State, eta, eta_dot};
 use multiversion::multiversion;
 
 /// Second derivatives of the modal coordinates.
@@ -26,11 +26,11 @@ pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
     add(&mut sum, thrust * met.stream.axis.0, &n.thrust_across);
     add(&mut sum, thrust, &n.thrust_couple);
     for i in 0..MODES {
-        let stiffness = x[RIGID + 2 * i] * airframe.stiffness[i][i];
+        let stiffness = x[eta(i)] * airframe.stiffness[i][i];
         sum[i] = sum[i] + met.force * (air[i] + of.forces[i]) - stiffness;
     }
     for (k, slowed) in airframe.damping.iter().enumerate() {
-        add(&mut sum, -x[RIGID + 2 * k + 1], slowed);
+        add(&mut sum, -x[eta_dot(k)], slowed);
     }
     sum
 }

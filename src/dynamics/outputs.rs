@@ -4,7 +4,7 @@ use super::loads::{Loads, Met};
 use super::sensors::{self, Imu};
 use crate::solve::{Over, Scalar};
 use crate::structure::SLOSH;
-use crate::vehicle::{Airframe, Control, State, Stations, Vehicle};
+use crate::vehicle::{ALPHA, Airframe, Control, GAMMA, State, Stations, Vehicle};
 
 /// What a flight shows beside its states.
 #[derive(Debug, Clone, Copy)]
@@ -60,7 +60,7 @@ impl Vehicle {
         let Stations { imu, probe } = self.stations;
         Outputs {
             loads: met.loads,
-            theta: x[2] + x[3],
+            theta: x[GAMMA] + x[ALPHA],
             slosh: airframe.sloshing(x),
             n_z: met.loads.normal * (C::constant(1.0) / (airframe.mass * gravity)),
             imu: sensors::imu(airframe, met, x, rates, imu, gravity),

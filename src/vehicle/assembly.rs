@@ -1,6 +1,7 @@
 //! From the data files and a build to beam, liquid and coefficient set.
 
 use super::options::{Build, Configuration};
+use super::state::{GAMMA, H, V};
 use crate::air::Atmosphere;
 use crate::data::{AeroData, Data, EarthData, Inertia, VehicleData};
 use crate::error::Error;
@@ -51,8 +52,8 @@ impl Chosen {
     pub(crate) fn effective_gravity(&self) -> f64 {
         let atmosphere = Atmosphere::new(&self.earth);
         let start = self.build.condition.start(&atmosphere);
-        let (gravity, distance) = atmosphere.gravity(start[1]);
-        let felt = (gravity - start[0] * start[0] / distance) * libm::cos(start[2]);
+        let (gravity, distance) = atmosphere.gravity(start[H]);
+        let felt = (gravity - start[V] * start[V] / distance) * libm::cos(start[GAMMA]);
         // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
         felt.max(WEIGHTLESS * gravity)
     }

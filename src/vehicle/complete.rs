@@ -5,7 +5,7 @@ use super::assembly::Chosen;
 use super::body::Body;
 use super::fuel_table::Burn;
 use super::options::{Build, Stations};
-use super::state::{Control, RIGID};
+use super::state::{Control, eta};
 use crate::air::curve_fits::Aero;
 use crate::air::{Atmosphere, Choking, Intake};
 use crate::data::Data;
@@ -91,6 +91,6 @@ impl Vehicle {
 
     /// Number of states in motion at one fuel level: 5, 11 or 15.
     pub fn states(&self) -> usize {
-        RIGID + 2 * self.modes
+        eta(self.modes)
     }
 }

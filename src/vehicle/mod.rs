@@ -28,5 +28,6 @@ pub use factors::Factors;
 pub use fuel_table::Burn;
 pub use options::{Build, Condition, Configuration, Stations};
 pub use state::{
-    CONTROLS, Control, FASTEST_GUST, FUEL, GUSTS, Gust, NOMINAL, RIGID, STATE_NAMES, STATES, State,
+    ALPHA, CONTROLS, Control, DELTA_E, FASTEST_GUST, FUEL, GAMMA, GUSTS, Gust, H, NOMINAL, PHI, Q,
+    RIGID, STATE_NAMES, STATES, State, U_GUST, V, W_GUST, eta, eta_dot,
 };

@@ -1,7 +1,7 @@
 //! What shapes a vehicle.
 
 use super::factors::Factors;
-use super::state::{STATES, State};
+use super::state::{GAMMA, H, STATES, State, V};
 use crate::air::Atmosphere;
 use crate::data::AeroSet;
 use crate::error::Error;
@@ -32,9 +32,9 @@ impl Condition {
     /// State on this condition with everything else zero.
     pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
-        x[0] = self.mach * atmosphere.sound_speed(self.altitude);
-        x[1] = self.altitude;
-        x[2] = self.gamma;
+        x[V] = self.mach * atmosphere.sound_speed(self.altitude);
+        x[H] = self.altitude;
+        x[GAMMA] = self.gamma;
         x
     }
 }
