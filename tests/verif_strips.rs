@@ -4,7 +4,7 @@
 mod made_up;
 mod model;
 
-use ahv::air::curve_fits::{ANSWERS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use ahv::air::curve_fits::{ELASTIC_ROWS, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT};
 use ahv::data::AeroSet;
 use made_up::{BEND, BY_HAND, HEAVE, PITCH, Powers, ROUNDING, case, cases, from, unit};
 use model::AERO_SETS;
@@ -20,7 +20,7 @@ fn verif_pitch_rate_rows_are_sums_over_the_strips() {
         }
     }
     for (name, case) in cases(0.0) {
-        assert_eq!(case.elastic.pitch_rate, [0.0; ANSWERS], "{name}: eq. (4) has no q");
+        assert_eq!(case.elastic.pitch_rate, [0.0; ELASTIC_ROWS], "{name}: eq. (4) has no q");
     }
 }
 
@@ -43,9 +43,9 @@ fn verif_a_mass_centre_moved_aft_meets_less_incidence_from_a_lifted_nose() {
         let uniform = |row: usize| match row {
             INFLOW => 1.0,
             INCIDENCE => 0.0,
-            row if row == FORCE + HEAVE => here.slope(LIFT),
-            row if row == FORCE + PITCH => -here.aero.chord * here.slope(MOMENT),
-            row if row < FORCE => here.slope(row),
+            row if row == MODAL_FORCE + HEAVE => here.slope(LIFT),
+            row if row == MODAL_FORCE + PITCH => -here.aero.chord * here.slope(MOMENT),
+            row if row < MODAL_FORCE => here.slope(row),
             row => here.answer(&unit())[row],
         };
         for d in [2.5, -1.2] {
@@ -53,7 +53,7 @@ fn verif_a_mass_centre_moved_aft_meets_less_incidence_from_a_lifted_nose() {
             let difference = std::array::from_fn(|row| {
                 there.elastic.pitch_rate[row] - here.elastic.pitch_rate[row]
             });
-            let expected: [f64; ANSWERS] = std::array::from_fn(|row| -d * uniform(row));
+            let expected: [f64; ELASTIC_ROWS] = std::array::from_fn(|row| -d * uniform(row));
             here.assert_rows(&format!("{set:?}, {d} m"), &difference, &expected, ROUNDING);
             assert!(expected[LIFT].abs() > 4.0, "{expected:?}");
         }
@@ -87,7 +87,7 @@ fn verif_bending_is_what_a_shape_has_beyond_its_rigid_motion() {
 
             let bending = case.answer(&shape.minus(1.0, &rigid));
             let turning = case.answer(&from(case.centre));
-            let mut rows: [f64; ANSWERS] = std::array::from_fn(|row| {
+            let mut rows: [f64; ELASTIC_ROWS] = std::array::from_fn(|row| {
                 -scale * bending[row] - pitch_rate * rotation * turning[row]
             });
             rows[INCIDENCE] = -rigid.at(case.centre);

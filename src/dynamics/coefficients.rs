@@ -5,7 +5,7 @@
 //! memory in pairs, a compiler packs them in pairs as well.
 
 use crate::air::curve_fits::{
-    ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
+    Aero, DRAG, ELASTIC_ROWS, Elastic, FITS, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT, PerMode,
 };
 use crate::solve::{Over, Scalar};
 use crate::vehicle::{Control, Q, State, eta, eta_dot};
@@ -49,7 +49,7 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
     u: &Control<S>,
     [alpha, per_speed]: [S; 2],
 ) -> Coefficients<S> {
-    let mut elastic = [S::constant(0.0); ANSWERS];
+    let mut elastic = [S::constant(0.0); ELASTIC_ROWS];
     for (k, [per_eta, per_rate]) in terms.per.iter().enumerate() {
         add(&mut elastic, x[eta(k)], per_eta);
         add(&mut elastic, x[eta_dot(k)] * per_speed, per_rate);
@@ -71,6 +71,6 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
         elevator,
         incidence: body,
         inflow,
-        forces: std::array::from_fn(|i| elastic[FORCE + i]),
+        forces: std::array::from_fn(|i| elastic[MODAL_FORCE + i]),
     }
 }

@@ -1,6 +1,6 @@
 //! Eq. (3) in known air, at one fuel level.
 
-use super::loads::Met;
+use super::loads::Airflow;
 use super::modal;
 use crate::solve::{Over, Scalar};
 use crate::structure::{FLEXIBLE, MODES};
@@ -12,13 +12,13 @@ impl Vehicle {
     pub(super) fn rates<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        met: &Met<S>,
+        airflow: &Airflow<S>,
         x: &State<S>,
     ) -> State<S> {
-        let Met { stream, loads, .. } = met;
+        let Airflow { wind, loads, .. } = airflow;
         let [speed, altitude, gamma, _, q, ..] = *x;
-        let (sin_alpha, cos_alpha) = stream.body;
-        let (sin_turn, cos_turn) = stream.turn;
+        let (sin_alpha, cos_alpha) = wind.body;
+        let (sin_turn, cos_turn) = wind.turn;
         let (gravity, distance) = self.atmosphere.gravity(altitude);
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
@@ -39,7 +39,7 @@ impl Vehicle {
         if self.modes == 0 {
             return rates;
         }
-        let modal = modal::accelerations(airframe, met, x);
+        let modal = modal::accelerations(airframe, airflow, x);
         for (i, acceleration) in modal.into_iter().enumerate() {
             rates[eta(i)] = x[eta_dot(i)];
             rates[eta_dot(i)] = acceleration;

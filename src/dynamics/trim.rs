@@ -1,6 +1,6 @@
 //! Trim: the controls and static deflections of steady flight.
 
-use super::linear::along;
+use super::linear::directional_derivative;
 use crate::error::Error;
 use crate::short::short;
 use crate::solve::Dual;
@@ -57,7 +57,7 @@ fn residual(
     let (mut value, mut jacobian) = (Vector::zeros(), SMatrix::identity());
     for column in 0..UNKNOWNS {
         let (dx, du) = insert(&[0.0; STATES], &Vector::from_fn(|i, _| f64::from(i == column)));
-        let rates = along(vehicle, [&x, &dx], [&u, &du]);
+        let rates = directional_derivative(vehicle, [&x, &dx], [&u, &du]);
         let mut put = |row: usize, rate: Dual<1>, scale: f64| {
             value[row] = rate.re / scale;
             jacobian[(row, column)] = rate.eps[0] / scale;

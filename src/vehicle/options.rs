@@ -41,14 +41,14 @@ impl Condition {
 
 /// Where the sensors sit, m from the nose.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stations {
+pub struct SensorStations {
     /// Inertial measurement unit.
     pub imu: f64,
     /// Incidence vane.
     pub probe: f64,
 }
 
-impl Stations {
+impl SensorStations {
     /// Whether both are on a body of this length, m.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Stations {
 
 /// What shapes a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Build {
+pub struct VehicleOptions {
     /// Which parts can move.
     pub configuration: Configuration,
     /// Coefficient set.
@@ -82,7 +82,7 @@ pub struct Build {
     /// Flight condition: the tanks' geometry gives a frequency only under its effective gravity.
     pub condition: Condition,
     /// Where the sensors sit.
-    pub stations: Stations,
+    pub stations: SensorStations,
     /// What is uncertain.
     pub factors: Factors,
 }

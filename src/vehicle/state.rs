@@ -52,7 +52,7 @@ pub type Control<S = f64> = [S; CONTROLS];
 /// Velocity of the air, m/s: vertical, up positive, and horizontal, along the flight direction.
 pub type Gust<S = f64> = [S; GUSTS];
 /// Fastest gust, m/s: a faster one has no effect beyond this.
-pub const FASTEST_GUST: f64 = 200.0;
+pub const MAX_GUST_M_PER_S: f64 = 200.0;
 
 /// Names of the states in the variable table.
 pub const STATE_NAMES: [&str; STATES] = [

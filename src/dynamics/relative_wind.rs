@@ -4,7 +4,7 @@ use crate::solve::Scalar;
 use crate::vehicle::{ALPHA, GAMMA, Gust, State, V};
 
 /// The vehicle as moving air meets it.
-pub struct Stream<S> {
+pub struct RelativeWind<S> {
     /// Speed through the air, m/s.
     pub speed: S,
     /// Incidence to it, rad.
@@ -17,7 +17,7 @@ pub struct Stream<S> {
     pub turn: (S, S),
 }
 
-impl<S: Scalar> Stream<S> {
+impl<S: Scalar> RelativeWind<S> {
     /// What moving air makes of the state.
     #[inline]
     pub fn new(x: &State<S>, gust: Gust<S>) -> Self {
