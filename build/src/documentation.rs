@@ -2,7 +2,7 @@
 
 use crate::workspace::{TEXT, read_text, root};
 use ahv::flight::{Flight, Setup};
-use ahv::vehicle::FASTEST_GUST;
+use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
 use fmi_model::{Kind, Model, Role, Variable, identity::guid};
 use quick_xml::escape::escape;
@@ -171,7 +171,7 @@ fn limits(flight: &Flight) -> String {
         between(envelope.alpha, degrees, " deg"),
         between([-elevator, elevator], degrees, " deg"),
         between([0.0, fuel], 1.0, ""),
-        between([-FASTEST_GUST, FASTEST_GUST], 1.0, " m/s"),
+        between([-MAX_GUST_M_PER_S, MAX_GUST_M_PER_S], 1.0, " m/s"),
     )
 }
 

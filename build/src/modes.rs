@@ -5,14 +5,14 @@ use crate::table::{number, row, table};
 use crate::trim::{configuration, model, setup};
 use ahv::data::Data;
 use ahv::structure::{FLEXIBLE, Modes};
-use ahv::vehicle::{Build, structure};
+use ahv::vehicle::{VehicleOptions, structure};
 use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;
 
 /// The eigenproblem and its frequencies.
-pub fn solved_elements(build: &Build) -> Result<serde_json::Value> {
-    let (beam, oscillators) = structure(&Data::embedded()?, build)?;
+pub fn solved_elements(options: &VehicleOptions) -> Result<serde_json::Value> {
+    let (beam, oscillators) = structure(&Data::embedded()?, options)?;
     let masses: Vec<_> = oscillators
         .iter()
         .map(|o| json!({ "node": o.node, "mass": o.mass, "stiffness": o.stiffness }))
@@ -48,12 +48,12 @@ pub fn run(options: &cli::Modes) -> Result<()> {
     let modes = match count {
         0 => Modes::default(),
         _ => {
-            let (beam, oscillators) = structure(&Data::embedded()?, &setup.parameters.build)?;
+            let (beam, oscillators) = structure(&Data::embedded()?, &setup.parameters.options)?;
             Modes::solve(&beam, &oscillators)?
         }
     };
     if *elements {
-        say!("{}", solved_elements(&setup.parameters.build)?)?;
+        say!("{}", solved_elements(&setup.parameters.options)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;

@@ -4,7 +4,7 @@ use crate::cli::Poles;
 use crate::modes::ordinal;
 use crate::table::{NOISE, number, row, table};
 use crate::trim::{configuration, model, setup};
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::flight::Setup;
 use ahv::structure::FLEXIBLE;
 use anyhow::Result;
@@ -71,8 +71,8 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     let setup = setup(&model()?, &set)?;
     let flight = setup.fly()?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
-    let linear =
-        [Linear::new, Linear::sensed].map(|linear| linear(vehicle, &trim.state, &trim.control));
+    let linear = [LinearModel::new, LinearModel::with_imu_gamma]
+        .map(|linear| linear(vehicle, &trim.state, &trim.control));
     let roots = |values: Vec<Complex<f64>>| -> Vec<Root> {
         // Of a pair the upper half stands for both.
         let upper = values.into_iter().filter(|root| root.im >= 0.0);

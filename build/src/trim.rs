@@ -33,7 +33,7 @@ pub fn setup(model: &ModelDescription, set: &Set) -> Result<Setup> {
 
 /// Name of the configuration that flies.
 pub fn configuration(setup: &Setup) -> String {
-    format!("{:?}", setup.parameters.build.configuration)
+    format!("{:?}", setup.parameters.options.configuration)
 }
 
 pub fn run(options: &Analyse) -> Result<()> {
@@ -42,7 +42,7 @@ pub fn run(options: &Analyse) -> Result<()> {
     let flight = setup.fly()?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let loads = vehicle.loads(&trim.state, &trim.control);
-    let (_, outputs) = vehicle.both(&trim.state, &trim.control, [0.0; 2]);
+    let (_, outputs) = vehicle.derivatives_and_outputs(&trim.state, &trim.control, [0.0; 2]);
     let (gravity, _) = vehicle.atmosphere.gravity(trim.state[1]);
     let [v, h, gamma, alpha, ..] = trim.state;
     let [delta_e, phi] = trim.control;

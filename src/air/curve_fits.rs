@@ -108,11 +108,11 @@ pub struct ModalForces<C = f64> {
 /// Row of [`Elastic::per`] in the place of the thrust: incidence of the engine's inflow, rad.
 pub const INFLOW: usize = THRUST;
 /// Row of [`Elastic::per`] of the first mode's force; those of the others follow.
-pub const FORCE: usize = FITS;
+pub const MODAL_FORCE: usize = FITS;
 /// Row of [`Elastic::per`]: incidence of the whole body, rad.
-pub const INCIDENCE: usize = FORCE + MODES;
+pub const INCIDENCE: usize = MODAL_FORCE + MODES;
 /// Rows of [`Elastic::per`].
-pub const ANSWERS: usize = INCIDENCE + 1;
+pub const ELASTIC_ROWS: usize = INCIDENCE + 1;
 
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
@@ -121,9 +121,9 @@ pub struct Elastic<C = f64> {
     /// eta-dot/V; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre, the
     /// incidence of the engine's inflow against that of the body, N_i over qbar S and the modal mass,
     /// 1/kg, and the incidence of the body.
-    pub per: [[[C; ANSWERS]; 2]; MODES],
+    pub per: [[[C; ELASTIC_ROWS]; 2]; MODES],
     /// The same rows per q/V, m.
-    pub pitch_rate: [C; ANSWERS],
+    pub pitch_rate: [C; ELASTIC_ROWS],
     /// The rest of N_i.
     pub force: ModalForces<C>,
 }

@@ -17,7 +17,7 @@ pub struct Envelope {
 
 /// A limited variable with its value and limits, in the units of the variable table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limited {
+pub struct LimitedQuantity {
     /// Name in the variable table.
     pub variable: &'static str,
     /// Its value.
@@ -26,7 +26,7 @@ pub struct Limited {
     pub limits: [f64; 2],
 }
 
-impl Limited {
+impl LimitedQuantity {
     /// Distance to the nearer limit over the width of the range, if it has one; negative outside.
     pub fn margin(&self) -> f64 {
         let [min, max] = self.limits;
@@ -39,27 +39,28 @@ impl Limited {
 impl Envelope {
     /// Altitude, Mach number and incidence, of altitude (m), speed through the air (m/s) and incidence
     /// to it (rad).
-    pub fn limited(
+    pub fn limited_quantities(
         &self,
         atmosphere: &Atmosphere,
         [altitude, speed, alpha]: [f64; 3],
-    ) -> [Limited; 3] {
+    ) -> [LimitedQuantity; 3] {
         let mach = speed / atmosphere.sound_speed(altitude);
         [
-            Limited { variable: "h", value: altitude, limits: self.altitude },
-            Limited { variable: "mach", value: mach, limits: self.mach },
-            Limited { variable: "alpha", value: alpha, limits: self.alpha },
+            LimitedQuantity { variable: "h", value: altitude, limits: self.altitude },
+            LimitedQuantity { variable: "mach", value: mach, limits: self.mach },
+            LimitedQuantity { variable: "alpha", value: alpha, limits: self.alpha },
         ]
     }
 
     /// Whether the fits hold there; never for what is not a number.
-    pub fn holds(&self, atmosphere: &Atmosphere, met: [f64; 3]) -> bool {
-        self.limited(atmosphere, met).iter().all(|limited| limited.margin() >= 0.0)
+    pub fn holds(&self, atmosphere: &Atmosphere, condition: [f64; 3]) -> bool {
+        self.limited_quantities(atmosphere, condition).iter().all(|limited| limited.margin() >= 0.0)
     }
 }
 
 /// The one with the smallest margin; there is one.
-pub fn tightest(limited: impl IntoIterator<Item = Limited>) -> Limited {
-    let nowhere = Limited { variable: "", value: 0.0, limits: [f64::NEG_INFINITY, f64::INFINITY] };
+pub fn tightest(limited: impl IntoIterator<Item = LimitedQuantity>) -> LimitedQuantity {
+    let nowhere =
+        LimitedQuantity { variable: "", value: 0.0, limits: [f64::NEG_INFINITY, f64::INFINITY] };
     limited.into_iter().fold(nowhere, |a, b| if b.margin() < a.margin() { b } else { a })
 }

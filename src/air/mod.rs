@@ -19,5 +19,5 @@ pub mod strip_theory;
 pub use atmosphere::{Air, Atmosphere};
 pub use choking::Choking;
 pub(crate) use envelope::tightest;
-pub use envelope::{Envelope, Limited};
+pub use envelope::{Envelope, LimitedQuantity};
 pub use intake::Intake;

@@ -19,7 +19,7 @@
 //! the air, and a beam that feels one without the other seems to spin.
 
 use super::curve_fits::{
-    ANSWERS, Aero, DRAG, Elastic, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
+    Aero, DRAG, ELASTIC_ROWS, Elastic, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT, PerMode,
 };
 use crate::data::Geometry;
 #[cfg(doc)]
@@ -27,18 +27,18 @@ use crate::structure::RigidMotion;
 use crate::structure::{Beam, MODES, Modes, Point, Shape};
 
 /// A part of the body that answers to local incidence.
-struct Surface {
+struct LiftingSurface {
     /// Lift coefficient of the undeformed body as a polynomial in the incidence.
     load: [f64; 3],
     /// Its slope at the reference incidence, per rad.
     slope: f64,
     /// Averages of the mode shapes.
-    mean: Means,
+    mean: SurfaceMeans,
 }
 
 /// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products.
 #[derive(Debug, Clone, Copy, Default)]
-struct Means {
+struct SurfaceMeans {
     x: f64,
     xx: f64,
     phi: [f64; MODES],
@@ -49,7 +49,7 @@ struct Means {
     phi_slope: [[f64; MODES]; MODES],
 }
 
-impl Means {
+impl SurfaceMeans {
     /// Averages over places whose weights add up to `total`; x from the nose.
     fn over(points: impl Iterator<Item = Point>, total: f64, shapes: &[Shape]) -> Self {
         let mut mean = Self::default();
@@ -90,13 +90,13 @@ impl Means {
 
 /// A field of incidence over a surface: its averages by itself, times x and times each shape.
 #[derive(Debug, Clone, Copy, Default)]
-struct Field {
+struct IncidenceField {
     one: f64,
     x: f64,
     phi: PerMode,
 }
 
-impl Field {
+impl IncidenceField {
     fn plus(self, factor: f64, other: Self) -> Self {
         Self {
             one: self.one + factor * other.one,
@@ -106,33 +106,37 @@ impl Field {
     }
 }
 
-impl Means {
+impl SurfaceMeans {
     /// The field that is 1 everywhere.
-    fn unit(&self) -> Field {
-        Field { one: 1.0, x: self.x, phi: self.phi }
+    fn unit(&self) -> IncidenceField {
+        IncidenceField { one: 1.0, x: self.x, phi: self.phi }
     }
 
     /// x.
-    fn station(&self) -> Field {
-        Field { one: self.x, x: self.xx, phi: self.x_phi }
+    fn station(&self) -> IncidenceField {
+        IncidenceField { one: self.x, x: self.xx, phi: self.x_phi }
     }
 
     /// phi_k.
-    fn deflection(&self, k: usize) -> Field {
-        Field { one: self.phi[k], x: self.x_phi[k], phi: self.phi_phi.map(|row| row[k]) }
+    fn deflection(&self, k: usize) -> IncidenceField {
+        IncidenceField { one: self.phi[k], x: self.x_phi[k], phi: self.phi_phi.map(|row| row[k]) }
     }
 
     /// phi_k'.
-    fn slope(&self, k: usize) -> Field {
-        Field { one: self.slope[k], x: self.x_slope[k], phi: self.phi_slope.map(|row| row[k]) }
+    fn slope(&self, k: usize) -> IncidenceField {
+        IncidenceField {
+            one: self.slope[k],
+            x: self.x_slope[k],
+            phi: self.phi_slope.map(|row| row[k]),
+        }
     }
 }
 
 /// The two strips of the body with their averages: all that takes an integration over the beam.
 #[derive(Debug, Clone)]
-pub struct Strips {
-    fore: Means,
-    aft: Means,
+pub struct StripIntegrals {
+    fore: SurfaceMeans,
+    aft: SurfaceMeans,
     /// Middle of the nacelle.
     engine: Point,
     /// Mean translation and rotation of the body in each mode.
@@ -141,11 +145,12 @@ pub struct Strips {
     body_centre: f64,
 }
 
-impl Strips {
+impl StripIntegrals {
     /// Cuts the beam at the end of the fore-body.
     pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
         let cut = geometry.fore_body_m.value;
-        let strip = |from, to| Means::over(beam.gauss_points(from, to), to - from, &modes.shape);
+        let strip =
+            |from, to| SurfaceMeans::over(beam.gauss_points(from, to), to - from, &modes.shape);
         let motion = beam.rigid_motion();
         let mut moved = [[0.0; 2]; MODES];
         for (part, shape) in moved.iter_mut().zip(&modes.shape) {
@@ -162,7 +167,12 @@ impl Strips {
 }
 
 /// The two strips and the elevator.
-fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Surface; 3] {
+fn surfaces(
+    aero: &Aero,
+    beam: &Beam,
+    shapes: &[Shape],
+    strips: &StripIntegrals,
+) -> [LiftingSurface; 3] {
     let at = aero.elastic_delta_e;
     let [elevator_lift, elevator_moment] = [LIFT, MOMENT]
         .map(|row| aero.fits.row(row))
@@ -183,9 +193,9 @@ fn surfaces(aero: &Aero, beam: &Beam, shapes: &[Shape], strips: &Strips) -> [Sur
     });
     let mut place = beam.point(aero.moment_centre - aero.chord * elevator_moment / elevator_lift);
     place.weight = 1.0;
-    let elevator = Means::over([place].into_iter(), 1.0, shapes).about(aero.moment_centre);
+    let elevator = SurfaceMeans::over([place].into_iter(), 1.0, shapes).about(aero.moment_centre);
 
-    let surface = |load: [f64; 3], mean: Means| Surface {
+    let surface = |load: [f64; 3], mean: SurfaceMeans| LiftingSurface {
         load,
         slope: load[1] + 2.0 * load[2] * aero.elastic_alpha,
         mean,
@@ -209,11 +219,11 @@ fn plume_station(aero: &Aero) -> Option<f64> {
 ///
 /// `mass_centre` is its station from the nose (m), `pitch_rate` the part of the terms in the pitch rate
 /// that counts.
-pub fn derive(
+pub fn elastic_derivatives(
     aero: &Aero,
     beam: &Beam,
     modes: &Modes,
-    strips: &Strips,
+    strips: &StripIntegrals,
     mass_centre: f64,
     pitch_rate: f64,
 ) -> Elastic {
@@ -224,10 +234,10 @@ pub fn derive(
         [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
     let per_mass: PerMode = std::array::from_fn(|i| modes.per_modal_mass(i));
     // What the air answers to a field of incidence.
-    let answer = |field: &dyn Fn(&Means) -> Field| {
-        let start = Field::default();
+    let answer = |field: &dyn Fn(&SurfaceMeans) -> IncidenceField| {
+        let start = IncidenceField::default();
         let sum = surfaces.iter().fold(start, |sum, s| sum.plus(s.slope, field(&s.mean)));
-        let mut rows = [0.0; ANSWERS];
+        let mut rows = [0.0; ELASTIC_ROWS];
         rows[LIFT] = sum.one;
         // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
         rows[DRAG] = drag_slope / lift_slope * sum.one;
@@ -235,7 +245,7 @@ pub fn derive(
         // The engine swallows what the fore-body has turned.
         rows[INFLOW] = field(&surfaces[0].mean).one;
         for i in 0..MODES {
-            rows[FORCE + i] = sum.phi[i] * per_mass[i];
+            rows[MODAL_FORCE + i] = sum.phi[i] * per_mass[i];
         }
         rows
     };

@@ -1,8 +1,8 @@
 //! Flight with fuel that burns.
 
-use super::loads::Met;
+use super::loads::Airflow;
 use crate::solve::Scalar;
-use crate::vehicle::{Airframe, Burn, Control, FUEL, Gust, RIGID, State, Vehicle};
+use crate::vehicle::{Airframe, Control, FUEL, FuelTable, Gust, PHI, State, Vehicle, eta, eta_dot};
 
 impl Vehicle {
     /// Rates while fuel burns, and what `f` makes of them and of those without the turning of the shapes.
@@ -14,37 +14,39 @@ impl Vehicle {
     /// acceleration of a place, `2 f' dPhi/df eta'` makes up for the turning: an accelerometer feels
     /// `Phi` times the rest.
     #[inline(never)]
-    pub(super) fn burning<S: Scalar, T>(
+    pub(super) fn with_fuel_burn<S: Scalar, T>(
         &self,
-        burn: &Burn,
+        fuel_table: &FuelTable,
         x: &State<S>,
         u: &Control<S>,
         gust: Gust<S>,
-        f: impl FnOnce(&Airframe<S>, Met<S>, [State<S>; 2]) -> T,
+        f: impl FnOnce(&Airframe<S>, Airflow<S>, [State<S>; 2]) -> T,
     ) -> T {
-        let airframe = burn.airframe(x[FUEL]);
-        let met = self.met(&airframe, x, u, gust);
-        let mut rates = self.rates(&airframe, &met, x);
+        let airframe = fuel_table.airframe(x[FUEL]);
+        let airflow = self.airflow(&airframe, x, u, gust);
+        let mut rates = self.rates(&airframe, &airflow, x);
 
         // Density times speed.
-        let mass_flux = met.loads.qbar * 2.0 * met.per_speed;
-        let fuel_rate =
-            -self.intake.fuel_flow(mass_flux, met.loads.mach, met.coefficients.inflow, u[1]);
+        let mass_flux = airflow.loads.qbar * 2.0 * airflow.per_speed;
+        let fuel_rate = -self.intake.fuel_flow(
+            mass_flux,
+            airflow.loads.mach,
+            airflow.coefficients.inflow,
+            u[PHI],
+        );
         rates[FUEL] = fuel_rate;
-        let mut felt = rates;
+        let mut sensed = rates;
         for i in 0..self.modes {
             let (mut stiffness, mut turning) = (S::constant(0.0), S::constant(0.0));
             for k in 0..self.modes {
-                let (eta, eta_dot) = (x[RIGID + 2 * k], x[RIGID + 2 * k + 1]);
                 if k != i {
-                    stiffness = stiffness + eta * airframe.stiffness[i][k];
+                    stiffness = stiffness + x[eta(k)] * airframe.stiffness[i][k];
                 }
-                turning = turning + fuel_rate * 2.0 * eta_dot * airframe.turning[i][k];
+                turning = turning + fuel_rate * 2.0 * x[eta_dot(k)] * airframe.turning[i][k];
             }
-            let rate = RIGID + 2 * i + 1;
-            felt[rate] = felt[rate] - stiffness;
-            rates[rate] = felt[rate] - turning;
+            sensed[eta_dot(i)] = sensed[eta_dot(i)] - stiffness;
+            rates[eta_dot(i)] = sensed[eta_dot(i)] - turning;
         }
-        f(&airframe, met, [rates, felt])
+        f(&airframe, airflow, [rates, sensed])
     }
 }

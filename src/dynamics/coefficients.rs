@@ -5,10 +5,10 @@
 //! memory in pairs, a compiler packs them in pairs as well.
 
 use crate::air::curve_fits::{
-    ANSWERS, Aero, DRAG, Elastic, FITS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT, PerMode,
+    Aero, DRAG, ELASTIC_ROWS, Elastic, FITS, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT, PerMode,
 };
 use crate::solve::{Over, Scalar};
-use crate::vehicle::{Control, RIGID, State};
+use crate::vehicle::{Control, Q, State, eta, eta_dot};
 use multiversion::multiversion;
 
 /// Adds a term to each of some quantities.
@@ -49,13 +49,13 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
     u: &Control<S>,
     [alpha, per_speed]: [S; 2],
 ) -> Coefficients<S> {
-    let mut elastic = [S::constant(0.0); ANSWERS];
+    let mut elastic = [S::constant(0.0); ELASTIC_ROWS];
     for (k, [per_eta, per_rate]) in terms.per.iter().enumerate() {
-        add(&mut elastic, x[RIGID + 2 * k], per_eta);
-        add(&mut elastic, x[RIGID + 2 * k + 1] * per_speed, per_rate);
+        add(&mut elastic, x[eta(k)], per_eta);
+        add(&mut elastic, x[eta_dot(k)] * per_speed, per_rate);
     }
-    add(&mut elastic, x[4] * per_speed, &terms.pitch_rate);
-    let (delta_e, phi, body) = (u[0], u[1], alpha + elastic[INCIDENCE]);
+    add(&mut elastic, x[Q] * per_speed, &terms.pitch_rate);
+    let ([delta_e, phi], body) = (*u, alpha + elastic[INCIDENCE]);
     let inflow = body + elastic[INFLOW];
     let incidence = [body, body, body, inflow];
     let own = [elastic[LIFT], elastic[DRAG], elastic[MOMENT], S::constant(0.0)];
@@ -71,6 +71,6 @@ pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
         elevator,
         incidence: body,
         inflow,
-        forces: std::array::from_fn(|i| elastic[FORCE + i]),
+        forces: std::array::from_fn(|i| elastic[MODAL_FORCE + i]),
     }
 }

@@ -11,27 +11,35 @@ impl Vehicle {
     /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
     /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: Gust<S>) -> State<S> {
-        match &self.burn {
-            None => self.rates(&self.airframe, &self.met(&self.airframe, x, u, gust), x),
-            Some(burn) => self.burning(burn, x, u, gust, |_, _, [rates, _]| rates),
+        match &self.fuel_table {
+            None => self.rates(&self.airframe, &self.airflow(&self.airframe, x, u, gust), x),
+            Some(fuel_table) => {
+                self.with_fuel_burn(fuel_table, x, u, gust, |_, _, [rates, _]| rates)
+            }
         }
     }
 
     /// [`Vehicle::derivatives`], and everything that is shown beside the states.
-    pub fn both<S: Scalar>(
+    pub fn derivatives_and_outputs<S: Scalar>(
         &self,
         x: &State<S>,
         u: &Control<S>,
         gust: Gust<S>,
     ) -> (State<S>, Outputs<S>) {
-        if let Some(burn) = &self.burn {
-            return self.burning(burn, x, u, gust, |airframe, met, [rates, felt]| {
-                (rates, self.shown(airframe, &met, x, u, &felt))
-            });
+        if let Some(fuel_table) = &self.fuel_table {
+            return self.with_fuel_burn(
+                fuel_table,
+                x,
+                u,
+                gust,
+                |airframe, airflow, [rates, sensed]| {
+                    (rates, self.outputs_from(airframe, &airflow, x, u, &sensed))
+                },
+            );
         }
-        let met = self.met(&self.airframe, x, u, gust);
-        let rates = self.rates(&self.airframe, &met, x);
-        (rates, self.shown(&self.airframe, &met, x, u, &rates))
+        let airflow = self.airflow(&self.airframe, x, u, gust);
+        let rates = self.rates(&self.airframe, &airflow, x);
+        (rates, self.outputs_from(&self.airframe, &airflow, x, u, &rates))
     }
 
     /// Everything that is shown beside the states, whose rates are known.
@@ -42,9 +50,9 @@ impl Vehicle {
         gust: Gust<S>,
         rates: &State<S>,
     ) -> Outputs<S> {
-        if self.burn.is_some() {
-            return self.both(x, u, gust).1;
+        if self.fuel_table.is_some() {
+            return self.derivatives_and_outputs(x, u, gust).1;
         }
-        self.shown(&self.airframe, &self.met(&self.airframe, x, u, gust), x, u, rates)
+        self.outputs_from(&self.airframe, &self.airflow(&self.airframe, x, u, gust), x, u, rates)
     }
 }

@@ -1,10 +1,10 @@
 //! Where the model holds, where it has numbers at all, and what its actuators can do.
 
-use super::airflow::Stream;
-use crate::air::{Limited, tightest};
+use super::relative_wind::RelativeWind;
+use crate::air::{LimitedQuantity, tightest};
 use crate::structure::{FLEXIBLE, SLOSH};
 use crate::vehicle::{
-    Airframe, Control, FASTEST_GUST, FUEL, Gust, STATE_NAMES, STATES, State, Vehicle,
+    Airframe, Control, FUEL, Gust, H, MAX_GUST_M_PER_S, STATE_NAMES, STATES, State, V, Vehicle,
 };
 
 /// Outputs that show the displacement of the liquid in the fore and aft tank.
@@ -29,59 +29,59 @@ pub fn is_finite(x: &State) -> bool {
 
 /// The first state for which the equations have no numbers. An integrator from outside may look far
 /// beyond the region in which they hold.
-pub fn numberless(x: &State) -> Option<Limited> {
+pub fn out_of_domain(x: &State) -> Option<LimitedQuantity> {
     let least = |i: usize| match i {
-        0 => SLOWEST,
-        1 => LOWEST,
+        V => SLOWEST,
+        H => LOWEST,
         _ => -FAR,
     };
     (0..STATES)
-        .map(|i| Limited { variable: STATE_NAMES[i], value: x[i], limits: [least(i), FAR] })
+        .map(|i| LimitedQuantity { variable: STATE_NAMES[i], value: x[i], limits: [least(i), FAR] })
         .find(|limited| limited.margin() < 0.0)
 }
 
 impl Vehicle {
     /// Smallest and largest elevator deflection (rad) and fuel equivalence ratio.
-    pub fn ranges(&self) -> Control<[f64; 2]> {
+    pub fn control_ranges(&self) -> Control<[f64; 2]> {
         let [delta_e, phi] = self.limits;
         [[-delta_e, delta_e], [0.0, phi]]
     }
 
     /// Controls cut to what the actuators can do.
-    pub fn saturate(&self, u: Control) -> Control {
-        let [[least, largest], [lean, rich]] = self.ranges();
-        [u[0].clamp(least, largest), u[1].clamp(lean, rich)]
+    pub fn saturate(&self, [delta_e, phi]: Control) -> Control {
+        let [[least, largest], [lean, rich]] = self.control_ranges();
+        [delta_e.clamp(least, largest), phi.clamp(lean, rich)]
     }
 
     /// A gust cut to the fastest.
-    pub fn gust(wanted: Gust) -> Gust {
-        wanted.map(|speed| speed.clamp(-FASTEST_GUST, FASTEST_GUST))
+    pub fn limit_gust(wanted: Gust) -> Gust {
+        wanted.map(|speed| speed.clamp(-MAX_GUST_M_PER_S, MAX_GUST_M_PER_S))
     }
 
     /// Whether fuel burns and none is left; a mass that is not a number counts as none.
     pub fn out_of_fuel(&self, x: &State) -> bool {
-        self.burn.is_some() && (x[FUEL] < 0.0 || x[FUEL].is_nan())
+        self.fuel_table.is_some() && (x[FUEL] < 0.0 || x[FUEL].is_nan())
     }
 
     /// Altitude, speed through the air and incidence to it.
-    fn as_met(x: &State, gust: Gust) -> [f64; 3] {
-        let Stream { speed, incidence, .. } = Stream::new(x, gust);
-        [x[1], speed, incidence]
+    fn flight_condition(x: &State, gust: Gust) -> [f64; 3] {
+        let RelativeWind { speed, incidence, .. } = RelativeWind::new(x, gust);
+        [x[H], speed, incidence]
     }
 
     /// Calls `f` with the airframe at a state.
     fn at_level<T>(&self, x: &State, f: impl FnOnce(&Airframe) -> T) -> T {
-        match &self.burn {
+        match &self.fuel_table {
             None => f(&self.airframe),
-            Some(burn) => f(&burn.airframe(x[FUEL])),
+            Some(fuel_table) => f(&fuel_table.airframe(x[FUEL])),
         }
     }
 
     /// How far the liquid in each tank is from where it would leave its depth.
-    fn sloshing(&self, x: &State) -> [Limited; SLOSH] {
+    fn sloshing(&self, x: &State) -> [LimitedQuantity; SLOSH] {
         self.at_level(x, |airframe| {
             let moved = airframe.sloshing(x);
-            std::array::from_fn(|tank| Limited {
+            std::array::from_fn(|tank| LimitedQuantity {
                 variable: SLOSH_NAMES[tank],
                 value: moved[tank],
                 limits: [-airframe.depth[tank], airframe.depth[tank]],
@@ -90,20 +90,20 @@ impl Vehicle {
     }
 
     /// How far the burner is from thermal choking, if the fits end there.
-    fn choking(&self, x: &State, u: &Control, gust: Gust) -> Option<Limited> {
+    fn choking(&self, x: &State, u: &Control, gust: Gust) -> Option<LimitedQuantity> {
         let least = self.aero.envelope.choking_margin?;
         let value = self.at_level(x, |airframe| {
-            let met = self.met(airframe, x, u, gust);
-            self.choking_margin(&met, u)
+            let airflow = self.airflow(airframe, x, u, gust);
+            self.choking_margin(&airflow, u)
         });
-        Some(Limited { variable: "choking_margin", value, limits: [least, f64::INFINITY] })
+        Some(LimitedQuantity { variable: "choking_margin", value, limits: [least, f64::INFINITY] })
     }
 
     /// Whether the model holds at a state: within the ranges of the curve fits, with the liquid inside
     /// its depth, and with fuel if it burns.
     pub fn holds(&self, x: &State, u: &Control, gust: Gust) -> bool {
-        let met = Self::as_met(x, gust);
-        self.aero.envelope.holds(&self.atmosphere, met)
+        let condition = Self::flight_condition(x, gust);
+        self.aero.envelope.holds(&self.atmosphere, condition)
             && !self.out_of_fuel(x)
             && (self.modes <= FLEXIBLE
                 || self.sloshing(x).iter().all(|limited| limited.margin() >= 0.0))
@@ -111,15 +111,20 @@ impl Vehicle {
     }
 
     /// All quantities that have limits.
-    pub fn limited(&self, x: &State, u: &Control, gust: Gust) -> impl Iterator<Item = Limited> {
-        let met = Self::as_met(x, gust);
+    pub fn limited_quantities(
+        &self,
+        x: &State,
+        u: &Control,
+        gust: Gust,
+    ) -> impl Iterator<Item = LimitedQuantity> {
+        let condition = Self::flight_condition(x, gust);
         let sloshing = (self.modes > FLEXIBLE).then(|| self.sloshing(x));
         let others = sloshing.into_iter().flatten().chain(self.choking(x, u, gust));
-        self.aero.envelope.limited(&self.atmosphere, met).into_iter().chain(others)
+        self.aero.envelope.limited_quantities(&self.atmosphere, condition).into_iter().chain(others)
     }
 
     /// The quantity that is outside its limits or, inside all, next to them.
-    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> Limited {
-        tightest(self.limited(x, u, gust))
+    pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> LimitedQuantity {
+        tightest(self.limited_quantities(x, u, gust))
     }
 }

@@ -1,12 +1,12 @@
 //! Linearisation, poles and transmission zeros (Tables 2 and 3).
 
 use crate::solve::Dual;
-use crate::vehicle::{CONTROLS, Control, GUSTS, Gust, STATES, State, Vehicle};
+use crate::vehicle::{CONTROLS, Control, GAMMA, GUSTS, Gust, STATES, State, V, Vehicle};
 use nalgebra::{Complex, DMatrix, linalg::balancing};
 
 /// x' = A x + B u, y = C x; u = [delta_e, phi], y = [V, a flight-path angle]. Only the states in use.
 #[derive(Debug, Clone)]
-pub struct Linear {
+pub struct LinearModel {
     /// df/dx, n x n.
     pub a: DMatrix<f64>,
     /// df/du, n x 2.
@@ -16,25 +16,29 @@ pub struct Linear {
 }
 
 /// Rows of the state that are V and gamma.
-pub const OUTPUT_STATES: [usize; 2] = [0, 2];
+pub const OUTPUT_STATES: [usize; 2] = [V, GAMMA];
 
 /// A direction from a point, as dual numbers.
 fn dual<const N: usize>([value, direction]: [&[f64; N]; 2]) -> [Dual<1>; N] {
     std::array::from_fn(|i| Dual { re: value[i], eps: [direction[i]] })
 }
 
-const STILL: Gust<Dual<1>> = [Dual { re: 0.0, eps: [0.0] }; GUSTS];
+const STILL_AIR: Gust<Dual<1>> = [Dual { re: 0.0, eps: [0.0] }; GUSTS];
 
 /// Time derivatives in still air and how they change along a direction, of [value, direction]; exact by
 /// dual numbers. One direction at a time: many at once are quicker, but double the library.
-pub fn along(vehicle: &Vehicle, x: [&State; 2], u: [&Control; 2]) -> State<Dual<1>> {
-    vehicle.derivatives(&dual(x), &dual(u), STILL)
+pub fn directional_derivative(
+    vehicle: &Vehicle,
+    x: [&State; 2],
+    u: [&Control; 2],
+) -> State<Dual<1>> {
+    vehicle.derivatives(&dual(x), &dual(u), STILL_AIR)
 }
 
-impl Linear {
+impl LinearModel {
     /// With the outputs V and gamma; exact derivatives by dual numbers.
     pub fn new(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
-        let mut linear = Self::sensed(vehicle, state, control);
+        let mut linear = Self::with_imu_gamma(vehicle, state, control);
         linear.c = DMatrix::from_fn(OUTPUT_STATES.len(), linear.a.nrows(), |row, column| {
             f64::from(OUTPUT_STATES[row] == column)
         });
@@ -43,12 +47,16 @@ impl Linear {
 
     /// With the outputs V and gamma at the inertial measurement unit. Neither answers the controls at
     /// once, so D is zero.
-    pub fn sensed(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
+    pub fn with_imu_gamma(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
         let n = vehicle.states();
         let changes = |direction: usize| {
             let dx = std::array::from_fn(|i| f64::from(i == direction));
             let du = std::array::from_fn(|i| f64::from(STATES + i == direction));
-            let (rates, outputs) = vehicle.both(&dual([state, &dx]), &dual([control, &du]), STILL);
+            let (rates, outputs) = vehicle.derivatives_and_outputs(
+                &dual([state, &dx]),
+                &dual([control, &du]),
+                STILL_AIR,
+            );
             (rates.map(|rate| rate.eps[0]), outputs.imu.gamma.eps[0])
         };
         let by_state: Vec<(State, f64)> = (0..n).map(changes).collect();
@@ -57,8 +65,8 @@ impl Linear {
         Self {
             a: DMatrix::from_fn(n, n, |row, column| by_state[column].0[row]),
             b: DMatrix::from_fn(n, CONTROLS, |row, column| by_control[column].0[row]),
-            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| match row {
-                0 => f64::from(column == 0),
+            c: DMatrix::from_fn(OUTPUT_STATES.len(), n, |row, column| match OUTPUT_STATES[row] {
+                V => f64::from(column == V),
                 _ => gamma(column),
             }),
         }

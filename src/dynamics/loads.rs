@@ -1,9 +1,9 @@
 //! Eq. (4): what the air makes of a state.
 
-use super::airflow::Stream;
 use super::coefficients::{Coefficients, coefficients};
+use super::relative_wind::RelativeWind;
 use crate::solve::{Over, Scalar};
-use crate::vehicle::{Airframe, Control, FUEL, GUSTS, Gust, State, Vehicle};
+use crate::vehicle::{Airframe, Control, FUEL, GUSTS, Gust, H, PHI, State, Vehicle};
 
 /// Forces on the vehicle, per metre of width.
 #[derive(Debug, Clone, Copy)]
@@ -40,8 +40,8 @@ impl<S: Copy> Loads<S> {
 }
 
 /// What the air makes of a state.
-pub(super) struct Met<S> {
-    pub stream: Stream<S>,
+pub(super) struct Airflow<S> {
+    pub wind: RelativeWind<S>,
     /// One over the speed through the air, s/m.
     pub per_speed: S,
     /// Dynamic pressure by the reference area, N/m.
@@ -54,24 +54,24 @@ impl Vehicle {
     /// Eq. (4), in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
         let still = [S::constant(0.0); GUSTS];
-        match &self.burn {
-            None => self.met(&self.airframe, x, u, still).loads,
-            Some(burn) => self.met(&burn.airframe(x[FUEL]), x, u, still).loads,
+        match &self.fuel_table {
+            None => self.airflow(&self.airframe, x, u, still).loads,
+            Some(fuel_table) => self.airflow(&fuel_table.airframe(x[FUEL]), x, u, still).loads,
         }
     }
 
     /// What the air makes of a state, with the loads of eq. (4).
     #[inline(always)]
-    pub(super) fn met<C: Scalar, S: Scalar + Over<C>>(
+    pub(super) fn airflow<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
         x: &State<S>,
         u: &Control<S>,
         gust: Gust<S>,
-    ) -> Met<S> {
-        let stream = Stream::new(x, gust);
-        let (speed, alpha, (sin, cos)) = (stream.speed, stream.incidence, stream.axis);
-        let air = self.atmosphere.air(x[1]);
+    ) -> Airflow<S> {
+        let wind = RelativeWind::new(x, gust);
+        let (speed, alpha, (sin, cos)) = (wind.speed, wind.incidence, wind.axis);
+        let air = self.atmosphere.air(x[H]);
         let qbar = air.density * speed * speed * 0.5;
         let force = qbar * self.aero.area;
         let per_speed = S::constant(1.0) / speed;
@@ -90,12 +90,12 @@ impl Vehicle {
             moment: thrust * self.aero.thrust_arm + force * (c_m * self.aero.chord + c_n * shift),
             normal: force * c_n,
         };
-        Met { stream, per_speed, force, coefficients, loads }
+        Airflow { wind, per_speed, force, coefficients, loads }
     }
 
-    pub(super) fn choking_margin<S: Scalar>(&self, met: &Met<S>, u: &Control<S>) -> S {
-        let inflow = met.coefficients.inflow;
-        let sound_speed = met.stream.speed / met.loads.mach;
-        self.choking.margin(met.loads.mach, inflow, sound_speed, u[1])
+    pub(super) fn choking_margin<S: Scalar>(&self, airflow: &Airflow<S>, u: &Control<S>) -> S {
+        let inflow = airflow.coefficients.inflow;
+        let sound_speed = airflow.wind.speed / airflow.loads.mach;
+        self.choking.margin(airflow.loads.mach, inflow, sound_speed, u[PHI])
     }
 }

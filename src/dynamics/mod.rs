@@ -15,7 +15,6 @@
 //! | `limits` | where the model holds | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 
-mod airflow;
 mod burning;
 mod coefficients;
 mod equations;
@@ -25,10 +24,11 @@ mod loads;
 mod modal;
 mod outputs;
 mod rates;
+mod relative_wind;
 mod sensors;
 pub mod trim;
 
-pub(crate) use limits::{is_finite, numberless};
+pub(crate) use limits::{is_finite, out_of_domain};
 pub use loads::Loads;
 pub use outputs::Outputs;
 pub use sensors::Imu;

@@ -1,21 +1,21 @@
 //! Motion of the modes in the air; a function of its own for the reason that [`super::coefficients`] gives.
 
 use super::coefficients::add;
-use super::loads::Met;
+use super::loads::Airflow;
 use crate::solve::{Over, Scalar};
 use crate::structure::MODES;
-use crate::vehicle::{Airframe, RIGID, State};
+use crate::vehicle::{Airframe, State, eta, eta_dot};
 use multiversion::multiversion;
 
 /// Second derivatives of the modal coordinates.
 #[multiversion(targets("x86_64+avx"))]
 pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
     airframe: &Airframe<C>,
-    met: &Met<S>,
+    airflow: &Airflow<S>,
     x: &State<S>,
 ) -> [S; MODES] {
-    let (of, n) = (&met.coefficients, &airframe.elastic.force);
-    let (alpha, thrust) = (of.incidence, met.loads.thrust);
+    let (of, n) = (&airflow.coefficients, &airframe.elastic.force);
+    let (alpha, thrust) = (of.incidence, airflow.loads.thrust);
     // Over qbar S.
     let mut air = n.alpha[0].map(S::of);
     add(&mut air, alpha, &n.alpha[1]);
@@ -23,14 +23,14 @@ pub fn accelerations<C: Copy, S: Scalar + Over<C>>(
     add(&mut air, of.elevator, &n.delta_e);
     add(&mut air, of.plume, &n.plume);
     let mut sum = airframe.floor.map(S::of);
-    add(&mut sum, thrust * met.stream.axis.0, &n.thrust_across);
+    add(&mut sum, thrust * airflow.wind.axis.0, &n.thrust_across);
     add(&mut sum, thrust, &n.thrust_couple);
     for i in 0..MODES {
-        let stiffness = x[RIGID + 2 * i] * airframe.stiffness[i][i];
-        sum[i] = sum[i] + met.force * (air[i] + of.forces[i]) - stiffness;
+        let stiffness = x[eta(i)] * airframe.stiffness[i][i];
+        sum[i] = sum[i] + airflow.force * (air[i] + of.forces[i]) - stiffness;
     }
     for (k, slowed) in airframe.damping.iter().enumerate() {
-        add(&mut sum, -x[RIGID + 2 * k + 1], slowed);
+        add(&mut sum, -x[eta_dot(k)], slowed);
     }
     sum
 }

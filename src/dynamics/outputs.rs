@@ -1,10 +1,10 @@
 //! What a flight shows beside its states.
 
-use super::loads::{Loads, Met};
+use super::loads::{Airflow, Loads};
 use super::sensors::{self, Imu};
 use crate::solve::{Over, Scalar};
 use crate::structure::SLOSH;
-use crate::vehicle::{Airframe, Control, State, Stations, Vehicle};
+use crate::vehicle::{ALPHA, Airframe, Control, GAMMA, SensorStations, State, Vehicle};
 
 /// What a flight shows beside its states.
 #[derive(Debug, Clone, Copy)]
@@ -48,24 +48,24 @@ impl<S: Copy> Outputs<S> {
 
 impl Vehicle {
     /// The outputs in known air, at one fuel level; `rates` are those that an accelerometer feels.
-    pub(super) fn shown<C: Scalar, S: Scalar + Over<C>>(
+    pub(super) fn outputs_from<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        met: &Met<S>,
+        airflow: &Airflow<S>,
         x: &State<S>,
         u: &Control<S>,
         rates: &State<S>,
     ) -> Outputs<S> {
         let gravity = self.atmosphere.sea_level_gravity();
-        let Stations { imu, probe } = self.stations;
+        let SensorStations { imu, probe } = self.stations;
         Outputs {
-            loads: met.loads,
-            theta: x[2] + x[3],
+            loads: airflow.loads,
+            theta: x[GAMMA] + x[ALPHA],
             slosh: airframe.sloshing(x),
-            n_z: met.loads.normal * (C::constant(1.0) / (airframe.mass * gravity)),
-            imu: sensors::imu(airframe, met, x, rates, imu, gravity),
-            alpha_probe: sensors::vane(airframe, met, x, rates, probe),
-            choking_margin: self.choking_margin(met, u),
+            n_z: airflow.loads.normal * (C::constant(1.0) / (airframe.mass * gravity)),
+            imu: sensors::imu(airframe, airflow, x, rates, imu, gravity),
+            alpha_probe: sensors::vane(airframe, airflow, x, rates, probe),
+            choking_margin: self.choking_margin(airflow, u),
         }
     }
 }

@@ -1,10 +1,10 @@
 //! Eq. (3) in known air, at one fuel level.
 
-use super::loads::Met;
+use super::loads::Airflow;
 use super::modal;
 use crate::solve::{Over, Scalar};
 use crate::structure::{FLEXIBLE, MODES};
-use crate::vehicle::{Airframe, RIGID, STATES, State, Vehicle};
+use crate::vehicle::{ALPHA, Airframe, GAMMA, H, Q, STATES, State, V, Vehicle, eta, eta_dot};
 
 impl Vehicle {
     /// Eq. (3) in known air, at one fuel level.
@@ -12,13 +12,13 @@ impl Vehicle {
     pub(super) fn rates<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,
-        met: &Met<S>,
+        airflow: &Airflow<S>,
         x: &State<S>,
     ) -> State<S> {
-        let Met { stream, loads, .. } = met;
+        let Airflow { wind, loads, .. } = airflow;
         let [speed, altitude, gamma, _, q, ..] = *x;
-        let (sin_alpha, cos_alpha) = stream.body;
-        let (sin_turn, cos_turn) = stream.turn;
+        let (sin_alpha, cos_alpha) = wind.body;
+        let (sin_turn, cos_turn) = wind.turn;
         let (gravity, distance) = self.atmosphere.gravity(altitude);
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
         let per_speed = S::constant(1.0) / speed;
@@ -30,24 +30,23 @@ impl Vehicle {
             - (gravity * per_speed - speed / distance) * cos_gamma;
 
         let mut rates = [S::constant(0.0); STATES];
-        rates[0] = (loads.thrust * cos_alpha - drag) * per_mass - gravity * sin_gamma;
-        rates[1] = speed * sin_gamma;
-        rates[2] = gamma_dot;
-        rates[3] = q - gamma_dot;
-        rates[4] = loads.moment * (C::constant(1.0) / airframe.inertia);
+        rates[V] = (loads.thrust * cos_alpha - drag) * per_mass - gravity * sin_gamma;
+        rates[H] = speed * sin_gamma;
+        rates[GAMMA] = gamma_dot;
+        rates[ALPHA] = q - gamma_dot;
+        rates[Q] = loads.moment * (C::constant(1.0) / airframe.inertia);
 
         if self.modes == 0 {
             return rates;
         }
-        let modal = modal::accelerations(airframe, met, x);
+        let modal = modal::accelerations(airframe, airflow, x);
         for (i, acceleration) in modal.into_iter().enumerate() {
-            let (eta, eta_dot) = (RIGID + 2 * i, RIGID + 2 * i + 1);
-            rates[eta] = x[eta_dot];
-            rates[eta_dot] = acceleration;
+            rates[eta(i)] = x[eta_dot(i)];
+            rates[eta_dot(i)] = acceleration;
         }
         // Modes that a configuration does not have stay where they are, whatever their rates say.
         if self.modes <= FLEXIBLE {
-            rates[RIGID + 2 * FLEXIBLE..RIGID + 2 * MODES].fill(S::constant(0.0));
+            rates[eta(FLEXIBLE)..eta(MODES)].fill(S::constant(0.0));
         }
         rates
     }

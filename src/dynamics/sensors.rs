@@ -4,14 +4,14 @@
 //! pitch rate at its distance from the mass centre, and by deflection and slope of the modes. Relative
 //! motion in rotating axes: Etkin, Dynamics of Atmospheric Flight, 1972, section 5.1.
 
-use super::loads::Met;
+use super::loads::Airflow;
 use crate::air::curve_fits::PerMode;
 use crate::solve::{Over, Scalar};
 use crate::structure::MODES;
-use crate::vehicle::{Airframe, RIGID, State};
+use crate::vehicle::{ALPHA, Airframe, GAMMA, Q, State, V, eta, eta_dot};
 
 /// Motion of a point of the body against the mean axes, up positive.
-struct Motion<S> {
+struct PointMotion<S> {
     /// Deflection, m, and its rates.
     w: S,
     w_dot: S,
@@ -40,24 +40,24 @@ fn motion<C: Copy, S: Scalar + Over<C>>(
     [deflection, slope]: &[PerMode<C>; 2],
     x: &State<S>,
     rates: &State<S>,
-) -> Motion<S> {
-    let sum = |shape: &PerMode<C>, of: &State<S>, first: usize| {
+) -> PointMotion<S> {
+    let sum = |shape: &PerMode<C>, of: &State<S>, component: fn(usize) -> usize| {
         let modes = 0..MODES;
-        modes.fold(S::constant(0.0), |sum, i| sum + of[first + 2 * i] * shape[i])
+        modes.fold(S::constant(0.0), |sum, i| sum + of[component(i)] * shape[i])
     };
-    Motion {
-        w: sum(deflection, x, RIGID),
-        w_dot: sum(deflection, x, RIGID + 1),
-        w_dot_dot: sum(deflection, rates, RIGID + 1),
-        slope: sum(slope, x, RIGID),
-        slope_dot: sum(slope, x, RIGID + 1),
+    PointMotion {
+        w: sum(deflection, x, eta),
+        w_dot: sum(deflection, x, eta_dot),
+        w_dot_dot: sum(deflection, rates, eta_dot),
+        slope: sum(slope, x, eta),
+        slope_dot: sum(slope, x, eta_dot),
     }
 }
 
 /// What an IMU at `station`, m from the nose, shows; one g is `standard`, m/s^2.
 pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
     airframe: &Airframe<C>,
-    met: &Met<S>,
+    airflow: &Airflow<S>,
     x: &State<S>,
     rates: &State<S>,
     station: f64,
@@ -65,18 +65,18 @@ pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
 ) -> Imu<S> {
     let point = motion(&airframe.imu, x, rates);
     let forward = S::of(airframe.mass_centre - station);
-    let (q, theta) = (x[4], x[2] + x[3]);
-    let (sin_alpha, cos_alpha) = met.stream.body;
-    let ahead = x[0] * cos_alpha - q * point.w;
-    let up = q * forward + point.w_dot - x[0] * sin_alpha;
+    let (q, theta) = (x[Q], x[GAMMA] + x[ALPHA]);
+    let (sin_alpha, cos_alpha) = airflow.wind.body;
+    let ahead = x[V] * cos_alpha - q * point.w;
+    let up = q * forward + point.w_dot - x[V] * sin_alpha;
 
     let per_weight = C::constant(1.0) / (airframe.mass * standard);
-    let (sin, cos) = met.stream.axis;
-    let axial = met.loads.drag * cos - met.loads.lift * sin;
-    let along = (met.loads.thrust - axial) * per_weight;
-    let across = met.loads.normal * per_weight;
+    let (sin, cos) = airflow.wind.axis;
+    let axial = airflow.loads.drag * cos - airflow.loads.lift * sin;
+    let along = (airflow.loads.thrust - axial) * per_weight;
+    let across = airflow.loads.normal * per_weight;
     let in_g = 1.0 / standard;
-    let q_dot = rates[4];
+    let q_dot = rates[Q];
     let along = along - (q * q * forward + q_dot * point.w + q * point.w_dot * 2.0) * in_g;
     let across = across + (q_dot * forward - q * q * point.w + point.w_dot_dot) * in_g;
     let (sin, cos) = point.slope.sin_cos();
@@ -92,15 +92,15 @@ pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
 /// Incidence that a vane at `station`, m from the nose, shows, rad.
 pub(super) fn vane<C: Scalar, S: Scalar + Over<C>>(
     airframe: &Airframe<C>,
-    met: &Met<S>,
+    airflow: &Airflow<S>,
     x: &State<S>,
     rates: &State<S>,
     station: f64,
 ) -> S {
     let point = motion(&airframe.probe, x, rates);
     let forward = S::of(airframe.mass_centre - station);
-    let (sin, cos) = met.stream.axis;
-    let ahead = met.stream.speed * cos - x[4] * point.w;
-    let down = met.stream.speed * sin - x[4] * forward - point.w_dot;
+    let (sin, cos) = airflow.wind.axis;
+    let ahead = airflow.wind.speed * cos - x[Q] * point.w;
+    let down = airflow.wind.speed * sin - x[Q] * forward - point.w_dot;
     (down / ahead).atan() - point.slope
 }

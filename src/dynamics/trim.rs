@@ -1,11 +1,13 @@
 //! Trim: the controls and static deflections of steady flight.
 
-use super::linear::along;
+use super::linear::directional_derivative;
 use crate::error::Error;
 use crate::short::short;
 use crate::solve::Dual;
 use crate::structure::MODES;
-use crate::vehicle::{Condition, Control, FUEL, RIGID, STATES, State, Vehicle};
+use crate::vehicle::{
+    ALPHA, Condition, Control, FUEL, GAMMA, Q, STATES, State, V, Vehicle, eta, eta_dot,
+};
 use nalgebra::{SMatrix, SVector};
 
 /// Steady flight.
@@ -18,7 +20,9 @@ pub struct Trim {
 }
 
 /// alpha, delta_e, phi and the modal coordinates.
-const UNKNOWNS: usize = 3 + MODES;
+const UNKNOWNS: usize = FIRST_ETA + MODES;
+/// Index of the first modal coordinate among the unknowns.
+const FIRST_ETA: usize = 3;
 /// Newton converges in about five steps; the rest guards against cycling at rounding level.
 const MAX_STEPS: usize = 40;
 /// Scaled residual (accelerations over those of free fall) that counts as steady. Rounding leaves
@@ -28,18 +32,19 @@ const STEADY: f64 = 1e-11;
 const LOST: f64 = 1e6;
 /// Rows of the state derivative that must vanish, with their size in a free fall (m/s^2, rad/s,
 /// rad/s^2): V, gamma, q.
-const BALANCES: [(usize, f64); 3] = [(0, 10.0), (2, 0.004), (4, 1.0)];
+const BALANCES: [(usize, f64); 3] = [(V, 10.0), (GAMMA, 0.004), (Q, 1.0)];
 
 type Vector = SVector<f64, UNKNOWNS>;
 
 /// A state and its controls, from the unknowns and from what is known of the state.
 fn insert(known: &State, z: &Vector) -> (State, Control) {
     let mut x = *known;
-    x[3] = z[0];
+    let [alpha, delta_e, phi, ..] = z.data.0[0];
+    x[ALPHA] = alpha;
     for i in 0..MODES {
-        x[RIGID + 2 * i] = z[3 + i];
+        x[eta(i)] = z[FIRST_ETA + i];
     }
-    (x, [z[1], z[2]])
+    (x, [delta_e, phi])
 }
 
 /// Scaled residual of the trim equations and its exact Jacobian.
@@ -52,7 +57,7 @@ fn residual(
     let (mut value, mut jacobian) = (Vector::zeros(), SMatrix::identity());
     for column in 0..UNKNOWNS {
         let (dx, du) = insert(&[0.0; STATES], &Vector::from_fn(|i, _| f64::from(i == column)));
-        let rates = along(vehicle, [&x, &dx], [&u, &du]);
+        let rates = directional_derivative(vehicle, [&x, &dx], [&u, &du]);
         let mut put = |row: usize, rate: Dual<1>, scale: f64| {
             value[row] = rate.re / scale;
             jacobian[(row, column)] = rate.eps[0] / scale;
@@ -61,7 +66,7 @@ fn residual(
             put(row, rates[state], scale);
         }
         for i in 0..vehicle.modes {
-            put(3 + i, rates[RIGID + 2 * i + 1], vehicle.omega[i] * vehicle.omega[i]);
+            put(FIRST_ETA + i, rates[eta_dot(i)], vehicle.omega[i] * vehicle.omega[i]);
         }
     }
     (value, jacobian)
@@ -142,10 +147,6 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         return Err(impossible(limit, value.amax()));
     }
 
-    let mut state = start;
-    state[3] = solution[0];
-    for i in 0..vehicle.modes {
-        state[RIGID + 2 * i] = solution[3 + i];
-    }
-    Ok(Trim { state, control: [solution[1], solution[2]] })
+    let (state, control) = insert(&start, &solution);
+    Ok(Trim { state, control })
 }

@@ -31,7 +31,7 @@ pub(super) fn in_effect(
     inputs: &[f64; INPUTS],
 ) -> (Control, Gust) {
     let (control, gust) = Inputs::split(inputs);
-    (vehicle.saturate([base[0] + control[0], base[1] + control[1]]), Vehicle::gust(gust))
+    (vehicle.saturate([base[0] + control[0], base[1] + control[1]]), Vehicle::limit_gust(gust))
 }
 
 impl System<STATES> for ControlledVehicle<'_> {
@@ -47,10 +47,10 @@ impl System<STATES> for ControlledVehicle<'_> {
         &NOMINAL
     }
     #[inline(always)]
-    fn has_numbers(&self, x: &State) -> bool {
+    fn in_domain(&self, x: &State) -> bool {
         is_finite(x)
     }
-    fn steady(&self) -> bool {
+    fn is_autonomous(&self) -> bool {
         self.held.is_some()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::controlled_vehicle::in_effect;
 use super::inputs::Inputs;
-use crate::air::Limited;
+use crate::air::LimitedQuantity;
 use crate::error::Error;
 use crate::vehicle::{Control, FUEL, State, Vehicle};
 
@@ -21,7 +21,7 @@ pub(super) fn envelope_error(
 ) -> Error {
     let (control, gust) = in_effect(vehicle, base, &inputs.values);
     // Not `derivatives`: a second call of it would keep it from being inlined in the steps.
-    let (rates, _) = vehicle.both(x, &control, gust);
+    let (rates, _) = vehicle.derivatives_and_outputs(x, &control, gust);
     let looks = (0..LOOKS).map(|doublings| LOOK * f64::from(1 << doublings));
     let beyond = std::iter::once(0.0).chain(looks).find_map(|later| {
         let x: State = std::array::from_fn(|i| x[i] + later * rates[i]);
@@ -30,11 +30,11 @@ pub(super) fn envelope_error(
     });
     let (outside, u, wind) = beyond.unwrap_or((*x, control, gust));
     let tightest = vehicle.tightest(&outside, &u, wind);
-    if vehicle.burn.is_some() && outside[FUEL] <= tightest.margin() * vehicle.fuel {
+    if vehicle.fuel_table.is_some() && outside[FUEL] <= tightest.margin() * vehicle.fuel {
         return Error::Fuel { time_s };
     }
-    let Limited { variable, value, limits: [min, max] } = vehicle
-        .limited(x, &control, gust)
+    let LimitedQuantity { variable, value, limits: [min, max] } = vehicle
+        .limited_quantities(x, &control, gust)
         .find(|limited| limited.variable == tightest.variable)
         .unwrap_or(tightest);
     Error::Envelope { variable, value, min, max, time_s }

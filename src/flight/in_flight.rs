@@ -4,11 +4,11 @@ use super::controlled_vehicle::{ControlledVehicle, in_effect};
 use super::envelope_error::envelope_error;
 use super::inputs::Inputs;
 use super::method::Method;
-use crate::air::Limited;
+use crate::air::LimitedQuantity;
 use crate::dynamics::trim::Trim;
-use crate::dynamics::{Outputs, numberless};
+use crate::dynamics::{Outputs, out_of_domain};
 use crate::error::Error;
-use crate::solve::{Arrival, DOP853, Integrator, MOST_TRIALS, System};
+use crate::solve::{DOP853, Integrator, MAX_TRIALS, Outcome, System};
 use crate::vehicle::{CONTROLS, Control, Gust, State, Vehicle};
 
 /// Outputs, derivatives and controls at an instant.
@@ -102,9 +102,12 @@ impl Flight {
 
     /// Whether the equations have numbers here.
     pub(super) fn check_numbers(&self) -> Result<(), Error> {
-        numberless(&self.state).map_or(Ok(()), |Limited { variable, value, limits: [min, max] }| {
-            Err(Error::Numberless { variable, value, min, max })
-        })
+        out_of_domain(&self.state).map_or(
+            Ok(()),
+            |LimitedQuantity { variable, value, limits: [min, max] }| {
+                Err(Error::Numberless { variable, value, min, max })
+            },
+        )
     }
 
     /// Vehicle.
@@ -135,7 +138,7 @@ impl Flight {
             let (control, gust) = in_effect(vehicle, base, &inputs.values);
             let (derivatives, outputs) = match *slope {
                 Some(slope) => (slope, vehicle.outputs(state, &control, gust, &slope)),
-                None => vehicle.both(state, &control, gust),
+                None => vehicle.derivatives_and_outputs(state, &control, gust),
             };
             *slope = Some(derivatives);
             Sample { outputs, derivatives, control }
@@ -162,33 +165,35 @@ impl Flight {
         let interval = [0.0, length];
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
-        let arrival = if controlled.steady() {
+        let outcome = if controlled.is_autonomous() {
             integrator.advance(&mut **method, &controlled, state, interval, slope)
         } else {
             integrator.advance(&mut &DOP853, &controlled, state, interval, slope)
         };
-        let flown = match arrival {
-            Arrival::Complete => length,
-            Arrival::Left(flown) | Arrival::Stuck(flown) | Arrival::Long(flown) => flown,
+        let flown = match outcome {
+            Outcome::Complete => length,
+            Outcome::Invalid(flown)
+            | Outcome::StepTooSmall(flown)
+            | Outcome::TooManySteps(flown) => flown,
         };
         *inputs = inputs.after(flown);
         self.sample = None;
-        match arrival {
-            Arrival::Complete => {
+        match outcome {
+            Outcome::Complete => {
                 self.time = end;
                 Ok(())
             }
-            Arrival::Left(flown) => {
+            Outcome::Invalid(flown) => {
                 self.time += flown;
                 Err(envelope_error(vehicle, base, state, inputs, self.time))
             }
-            Arrival::Stuck(flown) => {
+            Outcome::StepTooSmall(flown) => {
                 self.time += flown;
                 Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
             }
-            Arrival::Long(flown) => {
+            Outcome::TooManySteps(flown) => {
                 self.time += flown;
-                Err(Error::TooLong { asked_s: length, trials: MOST_TRIALS, time_s: self.time })
+                Err(Error::TooLong { asked_s: length, trials: MAX_TRIALS, time_s: self.time })
             }
         }
     }

@@ -1,6 +1,6 @@
 //! The integrator of a flight.
 
-use crate::dynamics::linear::Linear;
+use crate::dynamics::linear::LinearModel;
 use crate::dynamics::trim::Trim;
 use crate::solve::{Decoupling, Exponential};
 use crate::structure::MODES;
@@ -24,6 +24,6 @@ pub type Method = Exponential<STATES, SLOW, FAST>;
 
 /// The method for a vehicle, its fast motion decoupled about steady flight.
 pub fn method(vehicle: &Vehicle, steady: &Trim) -> Method {
-    let jacobian = Linear::new(vehicle, &steady.state, &steady.control).a;
+    let jacobian = LinearModel::new(vehicle, &steady.state, &steady.control).a;
     Exponential::new(Decoupling::new(&jacobian, &NOMINAL))
 }

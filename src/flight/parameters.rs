@@ -2,7 +2,7 @@
 
 use crate::data::{AeroSet, Data};
 use crate::structure::{FLEXIBLE, MODES};
-use crate::vehicle::{Build, Condition, Configuration, Factors, Stations};
+use crate::vehicle::{Condition, Configuration, Factors, SensorStations, VehicleOptions};
 
 /// Meaning of the two inputs. The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub struct Offsets {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameters {
     /// Vehicle and initial flight condition.
-    pub build: Build,
+    pub options: VehicleOptions,
     /// Start from trimmed flight, or from the values below.
     pub trim: bool,
     /// Meaning of the inputs; always absolute without trim.
@@ -50,7 +50,7 @@ impl Parameters {
     pub fn new(data: &Data) -> Self {
         let default = &data.vehicle.default;
         Self {
-            build: Build {
+            options: VehicleOptions {
                 configuration: Configuration::SloshBeam,
                 aero: if data.own.is_some() { AeroSet::Own } else { AeroSet::Xu2015 },
                 fuel_fraction: default.fuel_fraction.value,
@@ -62,7 +62,7 @@ impl Parameters {
                     altitude: default.altitude_m.value,
                     gamma: 0.0,
                 },
-                stations: Stations {
+                stations: SensorStations {
                     imu: default.imu_station_m.value,
                     probe: default.probe_station_m.value,
                 },

@@ -4,14 +4,14 @@ use super::in_flight::Flight;
 use super::inputs::Inputs;
 use super::method::{DEFAULT_TOLERANCE, FIRST_STEP, Method, method};
 use super::parameters::{InputMode, Offsets, Parameters};
-use crate::air::Limited;
+use crate::air::LimitedQuantity;
 use crate::data::Data;
 use crate::dynamics::trim;
 use crate::dynamics::trim::Trim;
 use crate::error::Error;
 use crate::solve::Integrator;
 use crate::structure::{FLEXIBLE, MODES, SLOSH};
-use crate::vehicle::{Build, CONTROLS, FUEL, GUSTS, RIGID, State, Vehicle};
+use crate::vehicle::{CONTROLS, FUEL, GUSTS, RIGID, State, Vehicle, VehicleOptions};
 use std::sync::Arc;
 
 /// What a flight starts from.
@@ -54,13 +54,13 @@ impl Setup {
     /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
     /// region where the curve fits hold.
     pub fn start(&self, time: f64, tolerance: f64) -> Result<Flight, Error> {
-        let Parameters { build, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
+        let Parameters { options, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
             self.parameters;
-        let vehicle = built(&self.data, &build)?;
+        let vehicle = built(&self.data, &options)?;
         let steady = if trimmed {
-            trim::trim(&vehicle, &build.condition)?
+            trim::trim(&vehicle, &options.condition)?
         } else {
-            let mut state = build.condition.start(&vehicle.atmosphere);
+            let mut state = options.condition.start(&vehicle.atmosphere);
             state[FUEL] = vehicle.fuel;
             state[3] = alpha0;
             state[4] = q0;
@@ -78,7 +78,7 @@ impl Setup {
         let about = match trimmed {
             true => steady,
             // Of the condition, so that a start from it flies as one with trim does.
-            false => trim::trim(&vehicle, &build.condition).unwrap_or(steady),
+            false => trim::trim(&vehicle, &options.condition).unwrap_or(steady),
         };
         Ok(Flight {
             base: if deviation { steady.control } else { [0.0; 2] },
@@ -98,8 +98,8 @@ impl Setup {
 
 /// A vehicle, in a frame of its own: putting it together takes several times its room.
 #[inline(never)]
-fn built(data: &Data, build: &Build) -> Result<Box<Vehicle>, Error> {
-    Ok(Box::new(Vehicle::new(data, build)?))
+fn built(data: &Data, options: &VehicleOptions) -> Result<Box<Vehicle>, Error> {
+    Ok(Box::new(Vehicle::new(data, options)?))
 }
 
 /// The method for a vehicle, likewise.
@@ -141,9 +141,9 @@ fn start_outside(
     parameters: &Parameters,
 ) -> Error {
     let still = [0.0; GUSTS];
-    let Limited { variable, value, limits: [min, max] } =
+    let LimitedQuantity { variable, value, limits: [min, max] } =
         vehicle.tightest(start, &steady.control, still);
-    let (offsets, build) = (&parameters.offsets, &parameters.build);
+    let (offsets, options) = (&parameters.offsets, &parameters.options);
     // The flexible mode that moves the liquid of a tank most.
     let bent = |tank: usize| {
         let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
@@ -155,13 +155,13 @@ fn start_outside(
         match bent(tank).filter(|_| !parameters.trim) {
             _ if offset != 0.0 => (name, offset),
             Some(i) => (["eta10", "eta20", "eta30"][i], parameters.eta0[i]),
-            None if build.slosh_frequency > 0.0 => ("slosh_frequency", build.slosh_frequency),
-            None => ("fuel_fraction", build.fuel_fraction),
+            None if options.slosh_frequency > 0.0 => ("slosh_frequency", options.slosh_frequency),
+            None => ("fuel_fraction", options.fuel_fraction),
         }
     };
     let (name, given) = match variable {
         "h" => ("altitude0", value),
-        "mach" => ("mach0", build.condition.mach),
+        "mach" => ("mach0", options.condition.mach),
         "alpha" if parameters.trim || offsets.alpha != 0.0 => ("alpha_offset", offsets.alpha),
         "alpha" => ("alpha0", value),
         "slosh1" => sloshing(0),

@@ -24,7 +24,7 @@ impl Flight {
         let (moved, blown) = Inputs::split(input_change);
         let (wanted, wind) = Inputs::split(&self.inputs.values);
         let control_change = std::array::from_fn(|i| {
-            let [min, max] = vehicle.ranges()[i];
+            let [min, max] = vehicle.control_ranges()[i];
             if (min..=max).contains(&(base[i] + wanted[i])) { moved[i] } else { 0.0 }
         });
         let gust_change: Gust =
@@ -33,7 +33,7 @@ impl Flight {
         let u = std::array::from_fn(|i| Dual { re: control[i], eps: [control_change[i]] });
         let w = std::array::from_fn(|i| Dual { re: gust[i], eps: [gust_change[i]] });
         let along = |dual: Dual<1>| dual.eps[0];
-        let (derivatives, outputs) = vehicle.both(&x, &u, w);
+        let (derivatives, outputs) = vehicle.derivatives_and_outputs(&x, &u, w);
         Ok(Sample {
             outputs: outputs.map(along),
             derivatives: derivatives.map(along),

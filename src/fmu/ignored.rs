@@ -5,7 +5,7 @@ use crate::vehicle::Configuration;
 
 /// Names of the parameters that do nothing beside the others as they are, and why.
 pub fn ignored(parameters: &Parameters) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let configuration = parameters.build.configuration;
+    let configuration = parameters.options.configuration;
     let rigid = configuration == Configuration::Rigid;
     [
         (parameters.trim, "trim = true starts from trimmed flight", &WITHOUT_TRIM[..]),

@@ -56,22 +56,22 @@ impl<const N: usize> Blocks<N> {
 /// A function of L: a 2 x 2 block meets its own characteristic equation (Cayley, Hamilton), so
 /// whatever is made of it is a multiple of itself and of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Function<const N: usize> {
+pub struct MatrixFunction<const N: usize> {
     /// Multiple of one, for each state's block.
-    pub one: [f64; N],
+    pub identity: [f64; N],
     /// Multiple of L.
     pub linear: [f64; N],
 }
 
-impl<const N: usize> Function<N> {
+impl<const N: usize> MatrixFunction<N> {
     /// Zero.
-    pub const ZERO: Self = Self { one: [0.0; N], linear: [0.0; N] };
+    pub const ZERO: Self = Self { identity: [0.0; N], linear: [0.0; N] };
 
     /// `factor` times the function.
     #[inline(always)]
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
-            one: self.one.map(|multiple| multiple * factor),
+            identity: self.identity.map(|multiple| multiple * factor),
             linear: self.linear.map(|multiple| multiple * factor),
         }
     }
@@ -80,7 +80,7 @@ impl<const N: usize> Function<N> {
     #[inline(always)]
     pub fn add(&mut self, factor: f64, other: &Self) {
         for i in 0..N {
-            self.one[i] += factor * other.one[i];
+            self.identity[i] += factor * other.identity[i];
             self.linear[i] += factor * other.linear[i];
         }
     }
@@ -94,12 +94,12 @@ const NEGLIGIBLE: f64 = 1e-18;
 /// phi_k(t L) for k = 1 to 4, where phi_k(z) = sum over n of z^n / (n + k)!; by their series, which
 /// keep their digits while t L stays below about 4.
 #[inline(always)]
-pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [Function<N>; PHIS] {
+pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [MatrixFunction<N>; PHIS] {
     let (sum, product) = (blocks.sum.map(|s| s * t), blocks.product.map(|p| p * t * t));
     // In multiples of one and z = t L: `factor` z f + `shift`.
-    let climb = |f: &Function<N>, factor: f64, shift: f64| Function {
-        one: std::array::from_fn(|i| shift - factor * product[i] * f.linear[i]),
-        linear: std::array::from_fn(|i| factor * (f.one[i] + sum[i] * f.linear[i])),
+    let climb = |f: &MatrixFunction<N>, factor: f64, shift: f64| MatrixFunction {
+        identity: std::array::from_fn(|i| shift - factor * product[i] * f.linear[i]),
+        linear: std::array::from_fn(|i| factor * (f.identity[i] + sum[i] * f.linear[i])),
     };
     let (size, mut term, mut last) = (t * blocks.fastest, 1.0, PHIS);
     while term > NEGLIGIBLE {
@@ -107,7 +107,7 @@ pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [Function<N>; PHIS] {
         term *= size / last as f64;
     }
     // 4! phi_4 by Horner's rule, the others by phi_k = z phi_(k+1) + 1/k!.
-    let mut fourth = Function { one: [1.0; N], linear: [0.0; N] };
+    let mut fourth = MatrixFunction { identity: [1.0; N], linear: [0.0; N] };
     for n in (PHIS + 1..=last).rev() {
         fourth = climb(&fourth, 1.0 / n as f64, 1.0);
     }

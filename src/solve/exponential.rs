@@ -21,7 +21,7 @@
 mod scheme;
 mod step;
 
-use super::blocks::{Blocks, Function, PHIS, phis};
+use super::blocks::{Blocks, MatrixFunction, PHIS, phis};
 use super::decoupling::Decoupling;
 use super::integrate::{Attempt, Method, System, Trial};
 use multiversion::multiversion;
@@ -39,14 +39,14 @@ pub struct Exponential<const N: usize, const SLOW: usize, const FAST: usize> {
     /// Length of step for which the weights are, s.
     length: f64,
     /// What each stage, and the step itself, takes of f(x0), then of D of each source.
-    weights: [Function<N>; ROWS[STAGES + 1]],
+    weights: [MatrixFunction<N>; ROWS[STAGES + 1]],
 }
 
 impl<const N: usize, const SLOW: usize, const FAST: usize> Exponential<N, SLOW, FAST> {
     /// The method that takes this part of the motion exactly.
     pub fn new(linear: Decoupling<N, SLOW, FAST>) -> Self {
         let longest = LONGEST / linear.blocks.fastest;
-        Self { linear, longest, length: 0.0, weights: [Function::ZERO; ROWS[STAGES + 1]] }
+        Self { linear, longest, length: 0.0, weights: [MatrixFunction::ZERO; ROWS[STAGES + 1]] }
     }
 
     /// Makes the weights those of a step of this length.
@@ -65,7 +65,7 @@ impl<const N: usize, const SLOW: usize, const FAST: usize> Exponential<N, SLOW, 
             let row = &mut self.weights[ROWS[stage]..ROWS[stage + 1]];
             row[0] = pushed[0];
             for (weight, &own) in row[1..].iter_mut().zip(*sources) {
-                *weight = Function::ZERO;
+                *weight = MatrixFunction::ZERO;
                 for (factor, moment) in course(sources, own).iter().zip(&pushed[1..]) {
                     weight.add(*factor, moment);
                 }
@@ -93,7 +93,7 @@ fn rounded(h: f64) -> f64 {
 
 /// What a push that grows as (s/h)^k, k = 0 to 3, leaves at `end` h: h end^(k+1) k! phi_(k+1)(end h L).
 #[inline(always)]
-fn moments<const N: usize>(linear: &Blocks<N>, h: f64, end: f64) -> [Function<N>; PHIS] {
+fn moments<const N: usize>(linear: &Blocks<N>, h: f64, end: f64) -> [MatrixFunction<N>; PHIS] {
     let mut factor = h;
     let phis = phis(linear, end * h);
     std::array::from_fn(|k| {
@@ -105,7 +105,7 @@ fn moments<const N: usize>(linear: &Blocks<N>, h: f64, end: f64) -> [Function<N>
 impl<const N: usize, const SLOW: usize, const FAST: usize> Method<N>
     for Exponential<N, SLOW, FAST>
 {
-    fn longest(&self) -> f64 {
+    fn max_step(&self) -> f64 {
         self.longest
     }
 

@@ -9,26 +9,26 @@ pub trait System<const N: usize> {
     /// Typical size of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
     /// Whether f has numbers at x: a trial state may be anywhere.
-    fn has_numbers(&self, _x: &[f64; N]) -> bool {
+    fn in_domain(&self, _x: &[f64; N]) -> bool {
         true
     }
     /// Whether neither f nor `holds` changes with time: what a step leaves as it is then stays so.
-    fn steady(&self) -> bool {
+    fn is_autonomous(&self) -> bool {
         false
     }
 }
 
 /// How an interval ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Arrival {
+pub enum Outcome {
     /// At its end.
     Complete,
     /// At the last instant at which the model holds.
-    Left(f64),
+    Invalid(f64),
     /// Nowhere: no step holds the tolerance from this instant on.
-    Stuck(f64),
-    /// At this instant, after [`MOST_TRIALS`].
-    Long(f64),
+    StepTooSmall(f64),
+    /// At this instant, after [`MAX_TRIALS`].
+    TooManySteps(f64),
 }
 
 /// An explicit Runge-Kutta method with an error estimate made of two embedded methods.
@@ -82,7 +82,7 @@ const WILD: f64 = 1e30;
 /// f(t, x) at any x.
 #[inline(always)]
 fn rates<S: System<N>, const N: usize>(system: &S, t: f64, x: &[f64; N]) -> [f64; N] {
-    if system.has_numbers(x) { system.derivatives(t, x) } else { [WILD; N] }
+    if system.in_domain(x) { system.derivatives(t, x) } else { [WILD; N] }
 }
 
 impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
@@ -109,7 +109,7 @@ impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
 /// A one-step method.
 pub trait Method<const N: usize> {
     /// Longest step, s.
-    fn longest(&self) -> f64 {
+    fn max_step(&self) -> f64 {
         f64::INFINITY
     }
     /// Where a step leads, and how far it may be off.
@@ -138,7 +138,7 @@ const ROUNDINGS: f64 = 8.0;
 const EXIT_RESOLUTION: f64 = 1e-9;
 /// Trials in one interval: seconds of computing, and hours of flight. A stable vehicle never leaves its
 /// envelope, so a longer interval would not end.
-pub const MOST_TRIALS: usize = 1_000_000;
+pub const MAX_TRIALS: usize = 1_000_000;
 
 impl Integrator {
     /// A fresh integrator; `proposal` (s) is only a first guess.
@@ -158,30 +158,30 @@ impl Integrator {
         x: &mut [f64; N],
         [start, end]: [f64; 2],
         first: &mut Option<[f64; N]>,
-    ) -> Arrival {
+    ) -> Outcome {
         let mut t = start;
         // First instant at which the model is known not to hold.
         let mut invalid = f64::INFINITY;
         let mut slope = first.unwrap_or_else(|| rates(system, t, x));
-        for _ in 0..MOST_TRIALS {
+        for _ in 0..MAX_TRIALS {
             if t >= end {
-                return Arrival::Complete;
+                return Outcome::Complete;
             }
             let target = end.min(invalid);
             let remaining = target - t;
-            let pieces = libm::ceil(remaining / self.proposal.min(method.longest())).max(1.0);
+            let pieces = libm::ceil(remaining / self.proposal.min(method.max_step())).max(1.0);
             let (mut h, last) = (remaining / pieces, pieces == 1.0);
             let resolution = ROUNDINGS * f64::EPSILON * t.abs();
             if invalid <= end {
                 if remaining < EXIT_RESOLUTION.max(4.0 * resolution) {
                     *first = Some(slope);
-                    return Arrival::Left(t);
+                    return Outcome::Invalid(t);
                 }
                 h = h.min(0.5 * remaining);
             }
             if h < SMALLEST.max(resolution) && h < remaining {
                 *first = Some(slope);
-                return Arrival::Stuck(t);
+                return Outcome::StepTooSmall(t);
             }
             let tolerance = self.tolerance;
             let trial = method.trial(&Attempt { system, x, slope: &slope, t, h, tolerance });
@@ -208,7 +208,8 @@ impl Integrator {
             // A step cut by the interval's end says nothing against the longer proposal.
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
             // The steps to come would be this one again, as many as there are.
-            let rests = system.steady() && trial.next == *x && self.proposal >= method.longest();
+            let rests =
+                system.is_autonomous() && trial.next == *x && self.proposal >= method.max_step();
             t = if rests || last && invalid > end { end } else { t + h };
             *x = trial.next;
             *first = trial.slope;
@@ -216,7 +217,7 @@ impl Integrator {
                 slope = trial.slope.unwrap_or_else(|| system.derivatives(t, x));
             }
         }
-        if t < end { Arrival::Long(t) } else { Arrival::Complete }
+        if t < end { Outcome::TooManySteps(t) } else { Outcome::Complete }
     }
 }
 
@@ -240,7 +241,7 @@ impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
             _ => high * high / libm::sqrt(high * high + 0.01 * low * low).max(f64::MIN_POSITIVE),
         };
         // No stage has met the step's end.
-        let error = if attempt.system.has_numbers(&next) { error } else { f64::INFINITY };
+        let error = if attempt.system.in_domain(&next) { error } else { f64::INFINITY };
         Trial { next, slope: None, error, order: self.error_order }
     }
 }

@@ -13,9 +13,9 @@ mod exponential;
 mod integrate;
 mod scalar;
 
-pub use blocks::{Blocks, Function, PHIS, phis};
+pub use blocks::{Blocks, MatrixFunction, PHIS, phis};
 pub use decoupling::Decoupling;
 pub use dop853::DOP853;
 pub use exponential::Exponential;
-pub use integrate::{Arrival, Attempt, Integrator, MOST_TRIALS, Method, System, Tableau, Trial};
+pub use integrate::{Attempt, Integrator, MAX_TRIALS, Method, Outcome, System, Tableau, Trial};
 pub use scalar::{Dual, Over, Scalar};

@@ -11,7 +11,7 @@
 //! and slope from the nose instead. Between loaded nodes the deflection *is* a cubic: this is the
 //! exact inverse of K on self-equilibrated loads, at O(n) and to almost the last bit.
 
-use super::moments::Moments;
+use super::mass_correction::MassCorrection;
 use super::tanks::{SloshingTank, full_mass_kg_per_m, propellant_kg_per_m};
 use crate::data::VehicleData;
 
@@ -49,7 +49,7 @@ pub struct Beam {
     /// Mass per length of each element, kg/m^2.
     pub density: Vec<f64>,
     /// Of the rigid body, beyond those of the density.
-    pub moments: Moments,
+    pub correction: MassCorrection,
 }
 
 impl Beam {
@@ -80,7 +80,8 @@ impl Beam {
             .map(|e| interpolate(stations, values, (e as f64 + 0.5) * element_m))
             .collect();
         let density = vec![0.0; count];
-        let mut beam = Self { element_m, stiffness, density, moments: Moments::default() };
+        let mut beam =
+            Self { element_m, stiffness, density, correction: MassCorrection::default() };
         let (mass, joint) = (&data.mass, data.mass.beam_joint_m.value);
         beam.spread(scale * mass.fore_beam_kg_per_m2.value, f64::NEG_INFINITY, joint);
         beam.spread(scale * mass.aft_beam_kg_per_m2.value, joint, f64::INFINITY);
@@ -137,12 +138,12 @@ impl Beam {
     pub fn mass_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
         let own = self.density_properties(oscillators);
         let (shift, off) =
-            (self.moments.first / own.mass, own.centre_m - self.moments.motion.centre_m);
+            (self.correction.first / own.mass, own.centre_m - self.correction.motion.centre_m);
         let moved = own.mass * ((off + shift) * (off + shift) - off * off);
         MassProperties {
             mass: own.mass,
             centre_m: own.centre_m + shift,
-            inertia: own.inertia + self.moments.second - moved,
+            inertia: own.inertia + self.correction.second - moved,
         }
     }
 
@@ -195,8 +196,8 @@ impl Beam {
     /// Both slices hold [`Beam::unknowns`] entries.
     pub fn mass_times(&self, displacement: &[f64], product: &mut [f64]) {
         self.density_times(displacement, product);
-        if !self.moments.motion.rotation.is_empty() {
-            self.moments.add_product(displacement, product);
+        if !self.correction.motion.rotation.is_empty() {
+            self.correction.add_product(displacement, product);
         }
     }
 

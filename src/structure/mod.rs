@@ -8,13 +8,13 @@
 //! | `modes` | K phi = omega^2 M phi | Table 1, Fig. 5 |
 
 mod beam;
+mod mass_correction;
 mod modes;
-mod moments;
 mod rigid_body;
 mod shape;
 pub mod tanks;
 
 pub use beam::{Beam, MassProperties, Oscillator};
+pub use mass_correction::{MassCorrection, RigidMotion};
 pub use modes::{FLEXIBLE, MODES, Modes, SLOSH};
-pub use moments::{Moments, RigidMotion};
 pub use shape::{Point, Shape};

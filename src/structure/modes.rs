@@ -40,7 +40,7 @@ pub struct Modes {
     /// Deflection and slope of the beam, one entry per mode.
     pub shape: Vec<Shape>,
     /// The shapes out of the eigenmodes, `[eigenmode][shape]`, each with modal mass 1: the identity
-    /// but for [`Modes::turned`]. Frequencies and energies are those of the eigenmodes.
+    /// but for [`Modes::aligned_to`]. Frequencies and energies are those of the eigenmodes.
     pub rotation: [[f64; MODES]; MODES],
 }
 
@@ -78,7 +78,7 @@ impl Modes {
         Ok(modes)
     }
 
-    fn append(&mut self, i: usize, pair: &lanczos::Pair, structure: &lanczos::Structure) {
+    fn append(&mut self, i: usize, pair: &lanczos::EigenPair, structure: &lanczos::Structure) {
         let (u, omega2) = (&pair.displacement, 1.0 / pair.flexibility);
         let masses = &u[structure.beam.unknowns()..];
         let mut relative = [0.0; SLOSH];

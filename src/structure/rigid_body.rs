@@ -1,8 +1,8 @@
 //! The one rigid body of pitch, bending and slosh: its mass centre and pitch inertia are those that are
-//! asked for, by the [`Moments`] of its beam.
+//! asked for, by the [`MassCorrection`] of its beam.
 
 use super::beam::{Beam, MassProperties, Oscillator};
-use super::moments::{Moments, RigidMotion};
+use super::mass_correction::{MassCorrection, RigidMotion};
 use crate::error::Error;
 use std::borrow::Cow;
 
@@ -33,9 +33,9 @@ impl RigidMotion {
 impl Beam {
     /// Its rigid motion: that of its moments, where these are known.
     pub fn rigid_motion(&self) -> Cow<'_, RigidMotion> {
-        match self.moments.motion.rotation.is_empty() {
+        match self.correction.motion.rotation.is_empty() {
             true => Cow::Owned(RigidMotion::of(self)),
-            false => Cow::Borrowed(&self.moments.motion),
+            false => Cow::Borrowed(&self.correction.motion),
         }
     }
 
@@ -44,7 +44,7 @@ impl Beam {
     ///
     /// # Errors
     /// [`Error::Inertia`] if no body could have them: the kinetic energy would not be positive.
-    pub fn with_moments(
+    pub fn with_mass_properties(
         mut self,
         oscillators: &[Oscillator],
         centre_m: f64,
@@ -63,7 +63,7 @@ impl Beam {
         if !possible {
             return Err(Error::Inertia { inertia, least, own: own.inertia, shift_m: shift });
         }
-        self.moments = Moments { first, second, motion };
+        self.correction = MassCorrection { first, second, motion };
         Ok(self)
     }
 }

@@ -1,6 +1,6 @@
 //! What the fuel level decides of a vehicle.
 
-use super::state::{RIGID, State};
+use super::state::{State, eta};
 use crate::air::curve_fits::{Elastic, ModalForces, PerMode};
 use crate::solve::{Over, Scalar};
 use crate::structure::{MODES, SLOSH};
@@ -77,7 +77,7 @@ impl<C: Copy> Airframe<C> {
     pub fn sloshing<S: Scalar + Over<C>>(&self, x: &State<S>) -> [S; SLOSH] {
         self.slosh.map(|tank| {
             let parts = tank.iter().enumerate();
-            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[RIGID + 2 * i] * *per)
+            parts.fold(S::constant(0.0), |sum, (i, per)| sum + x[eta(i)] * *per)
         })
     }
 }

@@ -1,6 +1,7 @@
 //! From the data files and a build to beam, liquid and coefficient set.
 
-use super::options::{Build, Configuration};
+use super::options::{Configuration, VehicleOptions};
+use super::state::{GAMMA, H, V};
 use crate::air::Atmosphere;
 use crate::data::{AeroData, Data, EarthData, Inertia, VehicleData};
 use crate::error::Error;
@@ -13,7 +14,7 @@ const WEIGHTLESS: f64 = 1e-3;
 /// What a build asks of the data files: with its factors applied, and its coefficient set chosen. Boxed
 /// as [`Data`] is.
 #[derive(Debug, Clone)]
-pub struct Chosen {
+pub struct VehicleDefinition {
     /// Vehicle.
     pub vehicle: Box<VehicleData>,
     /// Gravity and air.
@@ -21,49 +22,49 @@ pub struct Chosen {
     /// Coefficient set.
     pub aero: Box<AeroData>,
     /// Build.
-    pub build: Build,
+    pub options: VehicleOptions,
 }
 
-impl Chosen {
+impl VehicleDefinition {
     /// From all data.
-    pub fn new(data: &Data, build: &Build) -> Self {
-        Self::with_set(data, build, data.aero(build.aero))
+    pub fn new(data: &Data, options: &VehicleOptions) -> Self {
+        Self::with_coefficients(data, options, data.aero(options.aero))
     }
 
     /// With any coefficient set.
-    pub fn with_set(data: &Data, build: &Build, set: &AeroData) -> Self {
-        let factors = &build.factors;
+    pub fn with_coefficients(data: &Data, options: &VehicleOptions, set: &AeroData) -> Self {
+        let factors = &options.factors;
         Self {
             vehicle: factors.vehicle(&data.vehicle).into(),
             earth: factors.earth(&data.earth).into(),
             aero: factors.aero(set).into(),
-            build: *build,
+            options: *options,
         }
     }
 
     /// The same with another load of fuel.
     pub fn at(&self, fuel_fraction: f64) -> Self {
-        Self { build: Build { fuel_fraction, ..self.build }, ..self.clone() }
+        Self { options: VehicleOptions { fuel_fraction, ..self.options }, ..self.clone() }
     }
 
     /// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
     /// steady flight.
     pub(crate) fn effective_gravity(&self) -> f64 {
         let atmosphere = Atmosphere::new(&self.earth);
-        let start = self.build.condition.start(&atmosphere);
-        let (gravity, distance) = atmosphere.gravity(start[1]);
-        let felt = (gravity - start[0] * start[0] / distance) * libm::cos(start[2]);
+        let start = self.options.condition.start(&atmosphere);
+        let (gravity, distance) = atmosphere.gravity(start[H]);
+        let felt = (gravity - start[V] * start[V] / distance) * libm::cos(start[GAMMA]);
         // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
         felt.max(WEIGHTLESS * gravity)
     }
 
     pub(crate) fn tanks(&self, fuel_fraction: f64) -> Result<Option<[SloshingTank; 2]>, Error> {
-        if self.build.configuration != Configuration::SloshBeam {
+        if self.options.configuration != Configuration::SloshBeam {
             return Ok(None);
         }
         let settings = SloshSettings {
-            damping_ratio: self.build.slosh_damping,
-            frequency_rad_per_s: self.build.slosh_frequency,
+            damping_ratio: self.options.slosh_damping,
+            frequency_rad_per_s: self.options.slosh_frequency,
             gravity_m_per_s2: self.effective_gravity(),
         };
         SloshingTank::pair(&self.vehicle, fuel_fraction, &settings).map(Some)
@@ -89,7 +90,7 @@ impl Chosen {
     /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency, [`Error::Inertia`] if no
     /// body could have the wanted inertia.
     pub fn structure(&self) -> Result<(Beam, Vec<Oscillator>), Error> {
-        let fuel = self.build.fuel_fraction;
+        let fuel = self.options.fuel_fraction;
         let (beam, oscillators) = self.assembled(fuel)?;
         let own = beam.density_properties(&oscillators);
         let full = if fuel == 1.0 {
@@ -99,31 +100,31 @@ impl Chosen {
             beam.density_properties(&oscillators)
         };
         let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &self.aero.inertia;
-        let shift = match self.build.configuration {
+        let shift = match self.options.configuration {
             Configuration::Rigid => 0.0,
             _ => mass_centre_shift_m.as_ref().map_or(0.0, |shift| shift.value),
         };
-        let centre = own.centre_m + shift + self.build.factors.mass_centre_shift_m;
+        let centre = own.centre_m + shift + self.options.factors.mass_centre_shift_m;
         let inertia = i_yy_kg_m2_per_m.value * own.inertia / full.inertia;
-        Ok((beam.with_moments(&oscillators, centre, inertia)?, oscillators))
+        Ok((beam.with_mass_properties(&oscillators, centre, inertia)?, oscillators))
     }
 
     /// The same with the inertial measurement unit where Table 3 reads the flight-path angle: ahead of
     /// the mass centre, which is that of the body, in m from the nose.
-    pub fn sensed_as_printed(mut self, mass_centre_m: f64) -> Self {
-        let offset = match self.build.configuration {
+    pub fn with_imu_of_table_3(mut self, mass_centre_m: f64) -> Self {
+        let offset = match self.options.configuration {
             Configuration::Rigid => 0.0,
             _ => self.aero.reference.gamma_offset_m.as_ref().map_or(0.0, |offset| offset.value),
         };
-        self.build.stations.imu = mass_centre_m + offset;
+        self.options.stations.imu = mass_centre_m + offset;
         self
     }
 }
 
-/// [`Chosen::structure`] of a build.
+/// [`VehicleDefinition::structure`] of a build.
 ///
 /// # Errors
-/// Those of [`Chosen::structure`].
-pub fn structure(data: &Data, build: &Build) -> Result<(Beam, Vec<Oscillator>), Error> {
-    Chosen::new(data, build).structure()
+/// Those of [`VehicleDefinition::structure`].
+pub fn structure(data: &Data, options: &VehicleOptions) -> Result<(Beam, Vec<Oscillator>), Error> {
+    VehicleDefinition::new(data, options).structure()
 }

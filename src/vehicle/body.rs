@@ -1,10 +1,10 @@
 //! Beam, liquid and modes of a vehicle at one fuel level, and what they make of its airframe.
 
 use super::airframe::Airframe;
-use super::assembly::Chosen;
+use super::assembly::VehicleDefinition;
 use super::options::Configuration;
 use crate::air::curve_fits::Aero;
-use crate::air::strip_theory::{Strips, derive};
+use crate::air::strip_theory::{StripIntegrals, elastic_derivatives};
 use crate::error::Error;
 use crate::structure::{Beam, MODES, MassProperties, Modes, Oscillator, SLOSH};
 
@@ -19,33 +19,37 @@ pub struct Body {
     pub modes: Modes,
     /// Mass, mass centre and pitch inertia of both together.
     pub properties: MassProperties,
-    strips: Strips,
+    strips: StripIntegrals,
 }
 
 impl Body {
     /// Assembles the beam and solves for its modes.
     ///
     /// # Errors
-    /// Those of [`Chosen::structure`]; [`Error::Modes`] if the modes cannot be found.
-    pub fn new(chosen: &Chosen) -> Result<Self, Error> {
-        let (beam, oscillators) = chosen.structure()?;
+    /// Those of [`VehicleDefinition::structure`]; [`Error::Modes`] if the modes cannot be found.
+    pub fn new(definition: &VehicleDefinition) -> Result<Self, Error> {
+        let (beam, oscillators) = definition.structure()?;
         let properties = beam.mass_properties(&oscillators);
-        let modes = match chosen.build.configuration {
+        let modes = match definition.options.configuration {
             Configuration::Rigid => Modes::default(),
             _ => Modes::solve(&beam, &oscillators)?,
         };
-        let strips = Strips::new(&beam, &modes, &chosen.vehicle.geometry);
+        let strips = StripIntegrals::new(&beam, &modes, &definition.vehicle.geometry);
         Ok(Self { beam, oscillators, modes, strips, properties })
     }
 
     /// The same body, its modes in the basis nearest to those of another fuel level.
     ///
     /// # Errors
-    /// Those of [`Modes::turned`].
-    pub fn turned(mut self, chosen: &Chosen, reference: &Self) -> Result<Self, Error> {
+    /// Those of [`Modes::aligned_to`].
+    pub fn aligned_to(
+        mut self,
+        definition: &VehicleDefinition,
+        reference: &Self,
+    ) -> Result<Self, Error> {
         let reference = (&reference.modes, &reference.oscillators[..]);
-        self.modes = self.modes.turned(&self.beam, &self.oscillators, reference)?;
-        self.strips = Strips::new(&self.beam, &self.modes, &chosen.vehicle.geometry);
+        self.modes = self.modes.aligned_to(&self.beam, &self.oscillators, reference)?;
+        self.strips = StripIntegrals::new(&self.beam, &self.modes, &definition.vehicle.geometry);
         Ok(self)
     }
 
@@ -63,11 +67,11 @@ impl Body {
     ///
     /// # Errors
     /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
-    pub fn airframe(&self, chosen: &Chosen) -> Result<Airframe, Error> {
+    pub fn airframe(&self, definition: &VehicleDefinition) -> Result<Airframe, Error> {
         let Self { beam, oscillators, modes, strips, properties } = self;
-        let Chosen { aero, build, .. } = chosen;
+        let VehicleDefinition { aero, options, .. } = definition;
         // A force m g up on each sloshing mass and down on its tank.
-        let gravity = chosen.effective_gravity();
+        let gravity = definition.effective_gravity();
         let damping = modes.damping(oscillators, &aero.inertia.structural_damping.value);
         let floor = std::array::from_fn(|i| {
             let weights = oscillators.iter().zip(&modes.slosh_displacement);
@@ -75,20 +79,27 @@ impl Body {
             // Of a mode that does not exist both are zero.
             work / modes.modal_mass[i].max(f64::MIN_POSITIVE)
         });
-        let rate = build.factors.pitch_rate;
-        let tanks = chosen.tanks(build.fuel_fraction)?;
+        let rate = options.factors.pitch_rate;
+        let tanks = definition.tanks(options.fuel_fraction)?;
         Ok(Airframe {
             mass: properties.mass,
             inertia: properties.inertia,
             mass_centre: properties.centre_m,
-            elastic: derive(&Aero::new(aero), beam, modes, strips, properties.centre_m, rate),
+            elastic: elastic_derivatives(
+                &Aero::new(aero),
+                beam,
+                modes,
+                strips,
+                properties.centre_m,
+                rate,
+            ),
             stiffness: modes.stiffness(),
             damping: std::array::from_fn(|k| damping.map(|row| row[k])),
             floor,
             slosh: modes.slosh_displacement,
             turning: Default::default(),
-            imu: modes.at(&beam.point(build.stations.imu)),
-            probe: modes.at(&beam.point(build.stations.probe)),
+            imu: modes.at(&beam.point(options.stations.imu)),
+            probe: modes.at(&beam.point(options.stations.probe)),
             depth: tanks.map_or([0.0; SLOSH], |tanks| tanks.map(|tank| tank.depth_m)),
         })
     }

@@ -1,11 +1,11 @@
 //! From data and options to a vehicle that can fly.
 
 use super::airframe::Airframe;
-use super::assembly::Chosen;
+use super::assembly::VehicleDefinition;
 use super::body::Body;
-use super::fuel_table::Burn;
-use super::options::{Build, Stations};
-use super::state::{Control, RIGID};
+use super::fuel_table::FuelTable;
+use super::options::{SensorStations, VehicleOptions};
+use super::state::{Control, eta};
 use crate::air::curve_fits::Aero;
 use crate::air::{Atmosphere, Choking, Intake};
 use crate::data::Data;
@@ -30,13 +30,13 @@ pub struct Vehicle {
     /// What the fuel level decides, at the start.
     pub airframe: Airframe,
     /// The same at every level below, if fuel burns.
-    pub burn: Option<Arc<Burn>>,
+    pub fuel_table: Option<Arc<FuelTable>>,
     /// What the engine swallows.
     pub intake: Intake,
     /// When its burner chokes.
     pub choking: Choking,
     /// Where the sensors sit.
-    pub stations: Stations,
+    pub stations: SensorStations,
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
 }
@@ -47,50 +47,54 @@ impl Vehicle {
     /// # Errors
     /// [`Error::Value`] if a sensor is off the body; those of [`Body::new`]; [`Error::Value`] if the
     /// modes cannot be followed while fuel burns.
-    pub fn new(data: &Data, build: &Build) -> Result<Self, Error> {
-        Self::chosen(&Chosen::new(data, build))
+    pub fn new(data: &Data, options: &VehicleOptions) -> Result<Self, Error> {
+        Self::from_definition(&VehicleDefinition::new(data, options))
     }
 
     /// [`Vehicle::new`] with any coefficient set.
     ///
     /// # Errors
     /// Those of [`Vehicle::new`].
-    pub fn chosen(chosen: &Chosen) -> Result<Self, Error> {
-        Self::with_body(chosen, &Body::new(chosen)?)
+    pub fn from_definition(definition: &VehicleDefinition) -> Result<Self, Error> {
+        Self::with_body(definition, &Body::new(definition)?)
     }
 
     /// The same around a body that is known: that of [`Body::new`].
     ///
     /// # Errors
     /// Those of [`Vehicle::new`].
-    pub fn with_body(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
-        let build = &chosen.build;
-        build.stations.check(chosen.vehicle.geometry.length_m.value)?;
-        let burn = build.fuel_burn.then(|| Burn::new(chosen, body)).transpose()?;
-        Self::assembled(chosen, body, burn)
+    pub fn with_body(definition: &VehicleDefinition, body: &Body) -> Result<Self, Error> {
+        let options = &definition.options;
+        options.stations.check(definition.vehicle.geometry.length_m.value)?;
+        let fuel_table = options.fuel_burn.then(|| FuelTable::new(definition, body)).transpose()?;
+        Self::assembled(definition, body, fuel_table)
     }
 
     // A frame of its own, beside that of the burning vehicle.
     #[inline(never)]
-    fn assembled(chosen: &Chosen, body: &Body, burn: Option<Burn>) -> Result<Self, Error> {
-        let Chosen { vehicle, earth, aero, build } = chosen;
+    fn assembled(
+        definition: &VehicleDefinition,
+        body: &Body,
+        fuel_table: Option<FuelTable>,
+    ) -> Result<Self, Error> {
+        let VehicleDefinition { vehicle, earth, aero, options } = definition;
         Ok(Self {
             atmosphere: Atmosphere::new(earth),
             aero: Aero::new(aero),
             modes: body.modes.count,
-            fuel: fuel_kg_per_m(vehicle, build.fuel_fraction),
+            fuel: fuel_kg_per_m(vehicle, options.fuel_fraction),
             omega: body.modes.omega_rad_per_s,
-            airframe: body.airframe(chosen)?,
-            burn: burn.map(Arc::new),
+            airframe: body.airframe(definition)?,
+            fuel_table: fuel_table.map(Arc::new),
             intake: Intake::new(vehicle, earth),
             choking: Choking::new(vehicle, earth),
-            stations: build.stations,
+            stations: options.stations,
             limits: [vehicle.actuation.delta_e_limit_rad.value, vehicle.actuation.phi_limit.value],
         })
     }
 
     /// Number of states in motion at one fuel level: 5, 11 or 15.
     pub fn states(&self) -> usize {
-        RIGID + 2 * self.modes
+        eta(self.modes)
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Frequencies cross as the tanks empty, so eigenmodes cannot be followed one by one. The space that
 //! the kept modes span can: at every level its basis is the one nearest to the eigenmodes of the
-//! start ([`Modes::turned`]). It depends on start and level alone, not on the levels in between, and
+//! start ([`Modes::aligned_to`]). It depends on start and level alone, not on the levels in between, and
 //! everything in it is smooth. The stiffness is then a full matrix, whose eigenvalues are still the
 //! squares of the frequencies of the level.
 //!
@@ -11,7 +11,7 @@
 //! five levels each, so the error falls with the fourth power of the spacing.
 
 use super::airframe::{Airframe, COEFFICIENTS};
-use super::assembly::Chosen;
+use super::assembly::VehicleDefinition;
 use super::body::Body;
 use crate::air::curve_fits::PerMode;
 use crate::error::Error;
@@ -39,7 +39,7 @@ const BELOW_EMPTY: f64 = 0.5;
 
 /// One vehicle at all fuel levels from its start downwards.
 #[derive(Debug, Clone)]
-pub struct Burn {
+pub struct FuelTable {
     /// Filling at no fuel, and per fuel, m/kg.
     filling: [f64; 2],
     /// Root of the filling at the start.
@@ -57,27 +57,27 @@ fn slope(level: usize, at: impl Fn(usize) -> f64) -> f64 {
     weights.iter().enumerate().map(|(i, weight)| weight * at(first + i)).sum::<f64>() / 12.0
 }
 
-impl Burn {
+impl FuelTable {
     /// Solves a vehicle, whose body at the start is known, at all levels below.
     ///
     /// # Errors
     /// Those of [`Body::new`]; [`Error::Value`] if the modes cannot be followed.
-    pub fn new(chosen: &Chosen, body: &Body) -> Result<Self, Error> {
-        let residual = chosen.vehicle.mass.residual_fraction.value;
+    pub fn new(definition: &VehicleDefinition, body: &Body) -> Result<Self, Error> {
+        let residual = definition.vehicle.mass.residual_fraction.value;
         let drained = 1.0 - residual;
-        let start = (residual + drained * chosen.build.fuel_fraction).sqrt();
+        let start = (residual + drained * definition.options.fuel_fraction).sqrt();
         let spacing = (start - (BELOW_EMPTY * residual).sqrt()) / (LEVELS - 1) as f64;
-        let filling = [residual, drained / fuel_kg_per_m(&chosen.vehicle, 1.0)];
+        let filling = [residual, drained / fuel_kg_per_m(&definition.vehicle, 1.0)];
 
         let level = |level: usize| {
             let root = start - spacing * level as f64;
-            chosen.at((root * root - residual) / drained)
+            definition.at((root * root - residual) / drained)
         };
-        let levels: Vec<Chosen> =
-            std::iter::once(chosen.clone()).chain((1..LEVELS).map(level)).collect();
+        let levels: Vec<VehicleDefinition> =
+            std::iter::once(definition.clone()).chain((1..LEVELS).map(level)).collect();
         let mut bodies = vec![body.clone()];
-        for chosen in &levels[1..] {
-            bodies.push(Body::new(chosen)?.turned(chosen, body)?);
+        for definition in &levels[1..] {
+            bodies.push(Body::new(definition)?.aligned_to(definition, body)?);
         }
         let shapes: Vec<Vec<Vec<f64>>> = bodies.iter().map(Body::displacements).collect();
         let mut rows = Vec::with_capacity(LEVELS);
@@ -128,10 +128,10 @@ impl Burn {
 fn push_row(
     rows: &mut Vec<[f64; COEFFICIENTS]>,
     body: &Body,
-    chosen: &Chosen,
+    definition: &VehicleDefinition,
     turning: [PerMode; MODES],
 ) -> Result<(), Error> {
-    let airframe = body.airframe(chosen)?;
+    let airframe = body.airframe(definition)?;
     rows.push(Airframe { turning, ..airframe }.to_row());
     Ok(())
 }

@@ -21,12 +21,13 @@ mod options;
 mod state;
 
 pub use airframe::{Airframe, COEFFICIENTS};
-pub use assembly::{Chosen, structure};
+pub use assembly::{VehicleDefinition, structure};
 pub use body::Body;
 pub use complete::Vehicle;
 pub use factors::Factors;
-pub use fuel_table::Burn;
-pub use options::{Build, Condition, Configuration, Stations};
+pub use fuel_table::FuelTable;
+pub use options::{Condition, Configuration, SensorStations, VehicleOptions};
 pub use state::{
-    CONTROLS, Control, FASTEST_GUST, FUEL, GUSTS, Gust, NOMINAL, RIGID, STATE_NAMES, STATES, State,
+    ALPHA, CONTROLS, Control, DELTA_E, FUEL, GAMMA, GUSTS, Gust, H, MAX_GUST_M_PER_S, NOMINAL, PHI,
+    Q, RIGID, STATE_NAMES, STATES, State, U_GUST, V, W_GUST, eta, eta_dot,
 };

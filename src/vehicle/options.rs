@@ -1,7 +1,7 @@
 //! What shapes a vehicle.
 
 use super::factors::Factors;
-use super::state::{STATES, State};
+use super::state::{GAMMA, H, STATES, State, V};
 use crate::air::Atmosphere;
 use crate::data::AeroSet;
 use crate::error::Error;
@@ -32,23 +32,23 @@ impl Condition {
     /// State on this condition with everything else zero.
     pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
-        x[0] = self.mach * atmosphere.sound_speed(self.altitude);
-        x[1] = self.altitude;
-        x[2] = self.gamma;
+        x[V] = self.mach * atmosphere.sound_speed(self.altitude);
+        x[H] = self.altitude;
+        x[GAMMA] = self.gamma;
         x
     }
 }
 
 /// Where the sensors sit, m from the nose.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stations {
+pub struct SensorStations {
     /// Inertial measurement unit.
     pub imu: f64,
     /// Incidence vane.
     pub probe: f64,
 }
 
-impl Stations {
+impl SensorStations {
     /// Whether both are on a body of this length, m.
     ///
     /// # Errors
@@ -66,7 +66,7 @@ impl Stations {
 
 /// What shapes a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Build {
+pub struct VehicleOptions {
     /// Which parts can move.
     pub configuration: Configuration,
     /// Coefficient set.
@@ -82,7 +82,7 @@ pub struct Build {
     /// Flight condition: the tanks' geometry gives a frequency only under its effective gravity.
     pub condition: Condition,
     /// Where the sensors sit.
-    pub stations: Stations,
+    pub stations: SensorStations,
     /// What is uncertain.
     pub factors: Factors,
 }

@@ -3,7 +3,7 @@
 
 use ahv::data::{AeroSet, Data};
 use ahv::flight::{Flight, Parameters, Setup};
-use ahv::vehicle::{Build, Configuration, NOMINAL, STATES, State, Vehicle};
+use ahv::vehicle::{Configuration, NOMINAL, STATES, State, Vehicle, VehicleOptions};
 use fmi_model::table::find;
 
 pub const CONFIGURATIONS: [Configuration; 3] =
@@ -16,30 +16,30 @@ pub fn data() -> Data {
 }
 
 /// The default build of a configuration.
-pub fn build(configuration: Configuration) -> Build {
-    Build { configuration, ..Parameters::new(&data()).build }
+pub fn options(configuration: Configuration) -> VehicleOptions {
+    VehicleOptions { configuration, ..Parameters::new(&data()).options }
 }
 
 pub fn vehicle(configuration: Configuration) -> Vehicle {
-    Vehicle::new(&data(), &build(configuration)).expect("the default vehicle can be built")
+    Vehicle::new(&data(), &options(configuration)).expect("the default vehicle can be built")
 }
 
 /// The vehicle with a coefficient set of choice.
 pub fn vehicle_with(aero: AeroSet, configuration: Configuration) -> Vehicle {
-    let build = Build { aero, ..build(configuration) };
-    Vehicle::new(&data(), &build).expect("the default vehicle can be built")
+    let options = VehicleOptions { aero, ..options(configuration) };
+    Vehicle::new(&data(), &options).expect("the default vehicle can be built")
 }
 
 /// The default builds of all configurations with all coefficient sets.
-pub fn builds() -> impl Iterator<Item = Build> {
-    CONFIGURATIONS
-        .into_iter()
-        .flat_map(|configuration| AERO_SETS.map(|aero| Build { aero, ..build(configuration) }))
+pub fn builds() -> impl Iterator<Item = VehicleOptions> {
+    CONFIGURATIONS.into_iter().flat_map(|configuration| {
+        AERO_SETS.map(|aero| VehicleOptions { aero, ..options(configuration) })
+    })
 }
 
 /// A trimmed default flight.
 pub fn flight(configuration: Configuration) -> Flight {
-    flight_with(|parameters| parameters.build.configuration = configuration)
+    flight_with(|parameters| parameters.options.configuration = configuration)
 }
 
 /// A flight with other parameters than the default ones.

@@ -3,9 +3,9 @@
 use super::printed::{
     FLEXIBLE, INERTIA, Seen, ends, floats, moved, pairs, printed, published, real_parts, seen, size,
 };
-use crate::model::{AERO_SETS, assert_close, build, data, deviation};
+use crate::model::{AERO_SETS, assert_close, data, deviation, options};
 use ahv::data::AeroSet::{Parker2007, Xu2015};
-use ahv::vehicle::{Build, Chosen, Configuration, Vehicle};
+use ahv::vehicle::{Configuration, Vehicle, VehicleDefinition, VehicleOptions};
 
 /// "about 1 %": the published fits with the inertia that the paper's short period asks for.
 const RIGID_COLUMN: f64 = 0.012;
@@ -40,9 +40,9 @@ fn rigid_vehicles() -> impl Iterator<Item = Seen> {
     ];
     AERO_SETS.into_iter().flat_map(move |aero| {
         factors.map(|[lift, drag, moment_alpha, elevator, thrust]| {
-            let mut build = Build { aero, ..build(Configuration::Rigid) };
-            let own = build.factors;
-            build.factors = ahv::vehicle::Factors {
+            let mut options = VehicleOptions { aero, ..options(Configuration::Rigid) };
+            let own = options.factors;
+            options.factors = ahv::vehicle::Factors {
                 lift,
                 drag,
                 moment_alpha,
@@ -51,7 +51,7 @@ fn rigid_vehicles() -> impl Iterator<Item = Seen> {
                 inertia: 2.0 - lift,
                 ..own
             };
-            Seen::new(Chosen::new(&data(), &build))
+            Seen::new(VehicleDefinition::new(&data(), &options))
         })
     })
 }
@@ -214,12 +214,13 @@ fn paper_table3_zeros_are_those_of_the_gamma_of_the_body() {
 fn paper_claim_b_rests_on_how_the_inertia_falls() {
     // As that of the densities, the unstable pole moves to the right, and much; held, to the left.
     let data = data();
-    let at = |fuel_fraction: f64| Build { fuel_fraction, ..build(Configuration::SloshBeam) };
-    let pole = |build: &Build| {
-        let linear = Seen::new(Chosen::new(&data, build)).linear;
+    let at =
+        |fuel_fraction: f64| VehicleOptions { fuel_fraction, ..options(Configuration::SloshBeam) };
+    let pole = |options: &VehicleOptions| {
+        let linear = Seen::new(VehicleDefinition::new(&data, options)).linear;
         real_parts(&linear.poles())[0]
     };
-    let inertia = |build: &Build| Vehicle::new(&data, build).unwrap().airframe.inertia;
+    let inertia = |options: &VehicleOptions| Vehicle::new(&data, options).unwrap().airframe.inertia;
     let (full, empty) = (at(1.0), at(0.0));
     let mut held = empty;
     held.factors.inertia *= inertia(&full) / inertia(&empty);

@@ -1,10 +1,10 @@
 //! What the paper prints, and vehicles seen as its tables see them.
 
-use crate::model::{build, data};
+use crate::model::{data, options};
 use ahv::data::AeroSet::{self, Parker2007};
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::{Trim, trim};
-use ahv::vehicle::{Body, Build, Chosen, Configuration, Vehicle};
+use ahv::vehicle::{Body, Configuration, Vehicle, VehicleDefinition, VehicleOptions};
 use nalgebra::Complex;
 
 /// Pitch inertia, kg m^2/m, with which the published fits give the printed rigid column at 55 ft.
@@ -28,40 +28,40 @@ pub struct Seen {
     pub vehicle: Vehicle,
     pub trim: Trim,
     /// Outputs V and gamma where Table 3 reads it.
-    pub linear: Linear,
+    pub linear: LinearModel,
 }
 
 impl Seen {
-    pub fn new(chosen: Chosen) -> Self {
-        let body = Body::new(&chosen).expect("the vehicle has a structure");
-        let chosen = chosen.sensed_as_printed(body.properties.centre_m);
-        let vehicle = Vehicle::with_body(&chosen, &body).expect("the vehicle can be built");
-        let trim = trim(&vehicle, &chosen.build.condition).expect("the vehicle has a trim");
-        let linear = Linear::sensed(&vehicle, &trim.state, &trim.control);
+    pub fn new(definition: VehicleDefinition) -> Self {
+        let body = Body::new(&definition).expect("the vehicle has a structure");
+        let definition = definition.with_imu_of_table_3(body.properties.centre_m);
+        let vehicle = Vehicle::with_body(&definition, &body).expect("the vehicle can be built");
+        let trim = trim(&vehicle, &definition.options.condition).expect("the vehicle has a trim");
+        let linear = LinearModel::with_imu_gamma(&vehicle, &trim.state, &trim.control);
         Self { vehicle, trim, linear }
     }
 
     /// Outputs V and gamma of the mean axes.
-    pub fn mean_axes(&self) -> Linear {
-        Linear::new(&self.vehicle, &self.trim.state, &self.trim.control)
+    pub fn mean_axes(&self) -> LinearModel {
+        LinearModel::new(&self.vehicle, &self.trim.state, &self.trim.control)
     }
 }
 
 /// The default vehicle of a configuration with a set.
 pub fn seen(set: AeroSet, configuration: Configuration) -> Seen {
-    let build = Build { aero: set, ..build(configuration) };
-    Seen::new(Chosen::new(&data(), &build))
+    let options = VehicleOptions { aero: set, ..options(configuration) };
+    Seen::new(VehicleDefinition::new(&data(), &options))
 }
 
 /// The published set with another inertia, elastic terms and mass centre, m aft.
 pub fn moved(configuration: Configuration, inertia: f64, elastic: f64, shift: f64) -> Seen {
-    let mut build = Build { aero: Parker2007, ..build(configuration) };
-    build.factors.mass_centre_shift_m = shift;
+    let mut options = VehicleOptions { aero: Parker2007, ..options(configuration) };
+    options.factors.mass_centre_shift_m = shift;
     let data = data();
     let mut set = data.parker2007.clone();
     set.inertia.i_yy_kg_m2_per_m.value = inertia;
     set.reference.elastic_scale.value *= elastic;
-    Seen::new(Chosen::with_set(&data, &build, &set))
+    Seen::new(VehicleDefinition::with_coefficients(&data, &options, &set))
 }
 
 /// Descending.

@@ -2,7 +2,7 @@
 //! number, so that a change shows.
 
 use super::printed::{FLEXIBLE, ends, floats, pairs, printed, published, seen, size};
-use crate::model::{CONFIGURATIONS, assert_close, build, data, deviation, vehicle, vehicle_with};
+use crate::model::{CONFIGURATIONS, assert_close, data, deviation, options, vehicle, vehicle_with};
 use ahv::data::AeroSet::{Parker2007, Xu2015};
 use ahv::vehicle::{Configuration, Vehicle};
 
@@ -130,11 +130,11 @@ fn paper_less_propellant_raises_the_frequencies() {
     // Conclusion (1), and the sense of fig. 6.
     let mut last = [0.0; 3];
     for percent in [100, 75, 50, 25, 0] {
-        let build = ahv::vehicle::Build {
+        let options = ahv::vehicle::VehicleOptions {
             fuel_fraction: f64::from(percent) / 100.0,
-            ..build(Configuration::SloshBeam)
+            ..options(Configuration::SloshBeam)
         };
-        let vehicle = Vehicle::new(&data(), &build).unwrap();
+        let vehicle = Vehicle::new(&data(), &options).unwrap();
         for (omega, last) in vehicle.omega.iter().zip(&mut last) {
             assert!(*omega > *last, "{percent} % fuel: {omega} after {last}");
             *last = *omega;
@@ -144,6 +144,6 @@ fn paper_less_propellant_raises_the_frequencies() {
 
 #[test]
 fn paper_the_default_flight_is_the_papers_condition() {
-    let condition = crate::model::setup(&[]).parameters.build.condition;
+    let condition = crate::model::setup(&[]).parameters.options.condition;
     assert_eq!((condition.mach, condition.altitude, condition.gamma), (8.0, 25_900.0, 0.0));
 }

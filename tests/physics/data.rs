@@ -7,7 +7,7 @@ use ahv::data::{
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Parameters;
-use ahv::vehicle::{Build, Configuration, Vehicle};
+use ahv::vehicle::{Configuration, Vehicle, VehicleOptions};
 
 fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {
     for (key, value) in table {
@@ -191,9 +191,10 @@ fn verif_no_number_may_be_absurd() {
 fn verif_a_trim_without_numbers_fails_at_once_and_says_so() {
     let mut data = Data::embedded().unwrap();
     data.xu2015.lift.alpha.as_mut().unwrap().value = f64::NAN;
-    let build = Parameters::new(&data).build;
-    let vehicle = Vehicle::new(&data, &Build { configuration: Configuration::Rigid, ..build });
-    let error = trim(&vehicle.unwrap(), &build.condition).unwrap_err();
+    let options = Parameters::new(&data).options;
+    let vehicle =
+        Vehicle::new(&data, &VehicleOptions { configuration: Configuration::Rigid, ..options });
+    let error = trim(&vehicle.unwrap(), &options.condition).unwrap_err();
     assert!(matches!(error, Error::NotFinite { .. }), "{error}");
     assert!(
         error.to_string().contains("no finite accelerations at mach0 = 8, altitude0 = 25900 m")

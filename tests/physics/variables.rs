@@ -29,12 +29,12 @@ fn values(base: &Flight, known: usize, size: f64) -> Vec<f64> {
 /// A flight with every state in motion, so that no effect hides at zero.
 fn moving(configuration: Configuration, set: AeroSet) -> Flight {
     let mut flight = flight_with(|p| {
-        p.build.configuration = configuration;
-        p.build.aero = set;
+        p.options.configuration = configuration;
+        p.options.aero = set;
         // The fuel matters only while it burns.
-        p.build.fuel_burn = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
+        p.options.fuel_burn = configuration == Configuration::SloshBeam && set == AeroSet::Xu2015;
         // The pitch rate matters to the loads only where its terms count.
-        p.build.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 };
+        p.options.factors.pitch_rate = if set == AeroSet::Parker2007 { 0.0 } else { 1.0 };
     });
     let states = flight.vehicle().states();
     let mut snapshot = flight.snapshot();

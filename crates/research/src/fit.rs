@@ -14,7 +14,7 @@ use ahv::data::{
 use ahv::dynamics::trim::trim;
 use ahv::flight::Parameters;
 use ahv::structure::{FLEXIBLE, Modes};
-use ahv::vehicle::{Build, Configuration, Vehicle, structure};
+use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
 use ahv_tool::table::{row, table};
 use ahv_tool::workspace::{DATA, read_text, root, shown, write};
 use anyhow::{Result, bail};
@@ -132,8 +132,8 @@ fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
 /// are those of trimmed flight, which does not depend on them.
 fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> {
     let first = with_fit(inputs, &file(inputs, result, [0.0; 2], &[])?)?;
-    let build = build(&first, Configuration::Rigid);
-    let trimmed = trim(&Vehicle::new(&first, &build)?, &build.condition)?;
+    let options = options(&first, Configuration::Rigid);
+    let trimmed = trim(&Vehicle::new(&first, &options)?, &options.condition)?;
     let [delta_e, phi] = trimmed.control;
     let attitude = Attitude { alpha: trimmed.state[3], delta_e, phi };
 
@@ -153,8 +153,8 @@ fn with_fit(inputs: &Inputs, text: &str) -> Result<Data> {
     })
 }
 
-fn build(data: &Data, configuration: Configuration) -> Build {
-    Build { configuration, aero: AeroSet::ShockExpansion, ..Parameters::new(data).build }
+fn options(data: &Data, configuration: Configuration) -> VehicleOptions {
+    VehicleOptions { configuration, aero: AeroSet::ShockExpansion, ..Parameters::new(data).options }
 }
 
 /// The derived elastic terms against direct integration over panels.
@@ -162,11 +162,11 @@ fn compare(data: &Data, attitude: &Attitude) -> Result<Vec<Vec<String>>> {
     let model = ShockExpansion::new(&data.vehicle, &data.earth);
     let mut rows: Vec<_> = COMPARED.iter().map(|name| vec![name.to_string()]).collect();
     for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
-        let build = build(data, configuration);
-        let vehicle = Vehicle::new(data, &build)?;
-        let (beam, oscillators) = structure(data, &build)?;
+        let options = options(data, configuration);
+        let vehicle = Vehicle::new(data, &options)?;
+        let (beam, oscillators) = structure(data, &options)?;
         let modes = Modes::solve(&beam, &oscillators)?;
-        let condition = &build.condition;
+        let condition = &options.condition;
         let ahead = model.medium.ahead(&vehicle.atmosphere, condition.mach, condition.altitude);
         let direct = model.elastic(&ahead, attitude, &vehicle.aero, &beam, &modes)?;
         let found = elastic::deviation(&vehicle.airframe.elastic, &direct, FLEXIBLE);

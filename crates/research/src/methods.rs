@@ -7,7 +7,7 @@ pub use tableaus::RKF78;
 use crate::cli::Compare;
 use ahv::dynamics::trim::Trim;
 use ahv::flight::{DEFAULT_TOLERANCE, method};
-use ahv::solve::{Arrival, DOP853, Integrator, Method, System};
+use ahv::solve::{DOP853, Integrator, Method, Outcome, System};
 use ahv::vehicle::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
 use ahv_tool::table::{row, table};
 use ahv_tool::trim::{flight, model};
@@ -114,8 +114,8 @@ impl<'a> Problem<'a> {
             if before.replace(system.control) != Some(system.control) {
                 slope = None;
             }
-            let arrival = integrator.advance(method, system, x, interval, &mut slope);
-            assert_eq!(arrival, Arrival::Complete, "the flight is short and stays near trim");
+            let outcome = integrator.advance(method, system, x, interval, &mut slope);
+            assert_eq!(outcome, Outcome::Complete, "the flight is short and stays near trim");
             Ok(())
         });
         let Ok(flown) = flown;

@@ -6,32 +6,32 @@ mod model;
 
 use ahv::air::curve_fits::Aero;
 
-use ahv::air::curve_fits::FORCE;
+use ahv::air::curve_fits::MODAL_FORCE;
 
 use ahv::air::Atmosphere;
 use ahv::air::curve_fits::LIFT;
-use ahv::air::strip_theory::{Strips, derive};
+use ahv::air::strip_theory::{StripIntegrals, elastic_derivatives};
 use ahv::data::AeroSet;
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::structure::{Beam, FLEXIBLE, Modes, Shape};
-use ahv::vehicle::{Build, Configuration, Vehicle, structure};
+use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
 use ahv_research::shock_expansion::elastic::{COMPARED, deviation};
 use ahv_research::shock_expansion::stream::Stream;
 use ahv_research::shock_expansion::{Attitude, ShockExpansion};
-use model::{assert_close, build, data};
+use model::{assert_close, data, options};
 
 /// Strips of uniform load in place of the true distribution, and one lift slope each: the share of
 /// the elastic terms that this may cost; most for C_M per rate of the even beam.
 const STRIPS: f64 = 0.53;
 
-fn own_build(configuration: Configuration) -> Build {
-    Build { aero: AeroSet::ShockExpansion, ..build(configuration) }
+fn own_options(configuration: Configuration) -> VehicleOptions {
+    VehicleOptions { aero: AeroSet::ShockExpansion, ..options(configuration) }
 }
 
 fn trimmed(configuration: Configuration) -> (Vehicle, Trim, Attitude) {
-    let build = own_build(configuration);
-    let vehicle = Vehicle::new(&data(), &build).unwrap();
-    let trim = trim(&vehicle, &build.condition).unwrap();
+    let options = own_options(configuration);
+    let vehicle = Vehicle::new(&data(), &options).unwrap();
+    let trim = trim(&vehicle, &options.condition).unwrap();
     let [delta_e, phi] = trim.control;
     let attitude = Attitude { alpha: trim.state[3], delta_e, phi };
     (vehicle, trim, attitude)
@@ -40,7 +40,7 @@ fn trimmed(configuration: Configuration) -> (Vehicle, Trim, Attitude) {
 fn model_and_air() -> (ShockExpansion, Stream) {
     let data = data();
     let model = ShockExpansion::new(&data.vehicle, &data.earth);
-    let condition = build(Configuration::Rigid).condition;
+    let condition = options(Configuration::Rigid).condition;
     let atmosphere = Atmosphere::new(&data.earth);
     let ahead = model.medium.ahead(&atmosphere, condition.mach, condition.altitude);
     (model, ahead)
@@ -88,9 +88,10 @@ fn verif_panels_turn_like_the_whole_vehicle() {
     assert_close("lift", -direct.per[0][0][LIFT], slope, 0.02);
     // The fit's own slope, over a wider range, is near it; so is that of the strips, which a mass
     // centre one metre further ahead meets with one more q/V of incidence everywhere.
-    let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
+    let strips = StripIntegrals::new(&beam, &modes, &data.vehicle.geometry);
     let [ahead, at] = [-1.0, 0.0].map(|moved| {
-        derive(&aero, &beam, &modes, &strips, aero.moment_centre + moved, 1.0).pitch_rate[LIFT]
+        elastic_derivatives(&aero, &beam, &modes, &strips, aero.moment_centre + moved, 1.0)
+            .pitch_rate[LIFT]
     });
     assert_close("strips", at - ahead, direct.per[0][0][LIFT], 0.15);
 }
@@ -101,7 +102,7 @@ fn verif_strips_stand_for_panels_within_the_stated_bound() {
     let (_, _, attitude) = trimmed(Configuration::Rigid);
     for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
         let (vehicle, ..) = trimmed(configuration);
-        let (beam, oscillators) = structure(&data(), &own_build(configuration)).unwrap();
+        let (beam, oscillators) = structure(&data(), &own_options(configuration)).unwrap();
         let modes = Modes::solve(&beam, &oscillators).unwrap();
         let direct = model.elastic(&ahead, &attitude, &vehicle.aero, &beam, &modes).unwrap();
         let found = deviation(&vehicle.airframe.elastic, &direct, FLEXIBLE);
@@ -110,8 +111,8 @@ fn verif_strips_stand_for_panels_within_the_stated_bound() {
         }
         // What damps or drives each mode by itself has the same sign and size.
         for i in 0..FLEXIBLE {
-            let [strip, panel] =
-                [&vehicle.airframe.elastic, &direct].map(|elastic| elastic.per[i][1][FORCE + i]);
+            let [strip, panel] = [&vehicle.airframe.elastic, &direct]
+                .map(|elastic| elastic.per[i][1][MODAL_FORCE + i]);
             assert!(strip < 0.0 && panel < 0.0, "{configuration:?}, mode {i}");
             assert_close("damping", strip, panel, STRIPS);
         }

@@ -1,7 +1,7 @@
 //! One step of the exponential method.
 
 use super::scheme::{EARLY, NODES, ROWS, SOURCES, STAGES, course, node};
-use crate::solve::blocks::Function;
+use crate::solve::blocks::MatrixFunction;
 use crate::solve::decoupling::Decoupling;
 use crate::solve::integrate::{Attempt, System, Trial};
 
@@ -52,7 +52,7 @@ fn difference_of<const N: usize>(a: &[f64; N], b: &[f64; N]) -> [f64; N] {
 pub(super) struct Step<'a, S, const N: usize, const SLOW: usize, const FAST: usize> {
     pub linear: &'a Decoupling<N, SLOW, FAST>,
     /// What each stage, and the step itself, takes of f(x0), then of D of each source.
-    pub weights: &'a [Function<N>; ROWS[STAGES + 1]],
+    pub weights: &'a [MatrixFunction<N>; ROWS[STAGES + 1]],
     pub attempt: &'a Attempt<'a, S, N>,
     /// What the weights leave of the step's length, s.
     pub left: f64,
@@ -82,8 +82,8 @@ impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
         // Sums of functions of L: multiples of one, and of L.
         let (mut moved, mut linear_in) = ([0.0; N], [0.0; N]);
         for i in 0..N {
-            let mut take = |weight: &Function<N>, x: f64| {
-                moved[i] += weight.one[i] * x;
+            let mut take = |weight: &MatrixFunction<N>, x: f64| {
+                moved[i] += weight.identity[i] * x;
                 linear_in[i] += weight.linear[i] * x;
             };
             take(&row[0], self.pull[i]);

@@ -57,7 +57,7 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::Value`] if the motions have a part that no reference has.
-    pub fn turned(
+    pub fn aligned_to(
         &self,
         beam: &Beam,
         oscillators: &[Oscillator],
@@ -90,7 +90,7 @@ impl Modes {
                 .into(),
         })?;
 
-        let mut turned = Self { shape: Vec::with_capacity(count), ..self.clone() };
+        let mut aligned = Self { shape: Vec::with_capacity(count), ..self.clone() };
         let per_root_mass: [f64; MODES] =
             std::array::from_fn(|i| 1.0 / self.modal_mass[i].max(f64::MIN_POSITIVE).sqrt());
         for k in 0..count {
@@ -104,20 +104,20 @@ impl Modes {
             };
             let scaled = |value: &dyn Fn(usize) -> f64| sum(value) / unit;
             let nodes = 0..self.shape[k].w.len();
-            turned.shape.push(Shape {
+            aligned.shape.push(Shape {
                 w: nodes.clone().map(|n| scaled(&|i| self.shape[i].w[n])).collect(),
                 slope: nodes.map(|n| scaled(&|i| self.shape[i].slope[n])).collect(),
             });
             for tank in 0..SLOSH {
-                turned.slosh_displacement[tank][k] = scaled(&|i| self.slosh_displacement[tank][i]);
+                aligned.slosh_displacement[tank][k] = scaled(&|i| self.slosh_displacement[tank][i]);
             }
-            turned.modal_mass[k] = 1.0 / (unit * unit);
+            aligned.modal_mass[k] = 1.0 / (unit * unit);
             if unit < 0.0 {
                 rotation.column_mut(k).neg_mut();
             }
         }
-        turned.rotation = std::array::from_fn(|i| std::array::from_fn(|k| rotation[(i, k)]));
-        Ok(turned)
+        aligned.rotation = std::array::from_fn(|i| std::array::from_fn(|k| rotation[(i, k)]));
+        Ok(aligned)
     }
 }
 

@@ -42,7 +42,7 @@ pub(super) struct Structure<'a> {
 }
 
 /// A mode with `phi^T M phi = 1`.
-pub(super) struct Pair {
+pub(super) struct EigenPair {
     /// 1/omega^2, s^2.
     pub flexibility: f64,
     pub displacement: Vec<f64>,
@@ -157,7 +157,7 @@ impl<'a> Basis<'a> {
 }
 
 /// The `count` slowest modes, slowest first.
-pub(super) fn lowest_modes(structure: &Structure, count: usize) -> Result<Vec<Pair>, Error> {
+pub(super) fn lowest_modes(structure: &Structure, count: usize) -> Result<Vec<EigenPair>, Error> {
     let mut basis = Basis::new(structure);
     let masses = structure.beam.unknowns()..structure.unknowns();
     for place in std::iter::once(0).chain(masses) {
@@ -218,7 +218,7 @@ fn remainder(columns: &[Vec<f64>], weights: &[f64]) -> f64 {
 
 /// One Rayleigh-Ritz step in the modes themselves. There A is graded and almost diagonal, so that
 /// a fast mode beside a slow one comes out to its own last digits, not to those of the slow one.
-fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) -> Vec<Pair> {
+fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) -> Vec<EigenPair> {
     let mut basis = Basis::new(structure);
     for vector in slowest_first {
         basis.push(vector);
@@ -232,7 +232,10 @@ fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) 
         .collect();
     jacobi::eigen(leading_block(&columns))
         .into_iter()
-        .map(|(flexibility, weights)| Pair { flexibility, displacement: basis.combine(&weights) })
+        .map(|(flexibility, weights)| EigenPair {
+            flexibility,
+            displacement: basis.combine(&weights),
+        })
         .collect()
 }
 

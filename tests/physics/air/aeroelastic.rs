@@ -3,13 +3,13 @@
 
 use super::made_up::{BY_HAND, Case, HEAVE, PITCH, ROUNDING, case, cases};
 use crate::explicit::air::speed_and_gravity;
-use crate::model::{AERO_SETS, assert_close, build, data, vehicle, vehicle_with};
+use crate::model::{AERO_SETS, assert_close, data, options, vehicle, vehicle_with};
 use ahv::air::curve_fits::{
-    ANSWERS, Aero, DRAG, Elastic, FORCE, INCIDENCE, LIFT, MOMENT, ModalForces, PerMode,
+    Aero, DRAG, ELASTIC_ROWS, Elastic, INCIDENCE, LIFT, MODAL_FORCE, MOMENT, ModalForces, PerMode,
 };
 use ahv::data::AeroSet;
 use ahv::structure::{MODES, Modes};
-use ahv::vehicle::{Build, Configuration, Factors, GUSTS, RIGID, Vehicle, structure};
+use ahv::vehicle::{Configuration, Factors, GUSTS, RIGID, Vehicle, VehicleOptions, structure};
 
 #[test]
 fn verif_a_rigid_rotation_is_an_incidence() {
@@ -30,7 +30,7 @@ fn verif_a_heave_velocity_is_an_incidence() {
 
 fn assert_incidence(name: &str, case: &Case, mode: usize, per: [f64; 2]) {
     for (rows, incidence) in case.elastic.per[mode].iter().zip(per) {
-        let mut expected = [0.0; ANSWERS];
+        let mut expected = [0.0; ELASTIC_ROWS];
         expected[INCIDENCE] = incidence;
         case.assert_rows(name, rows, &expected, ROUNDING);
     }
@@ -47,7 +47,7 @@ fn verif_rigid_motions_act_in_the_published_fits_as_incidence_does() {
         vehicle.airframe.elastic.force.thrust_across = [0.0; MODES];
         vehicle.airframe.stiffness = [[0.0; MODES]; MODES];
         vehicle.airframe.damping = [[0.0; MODES]; MODES];
-        let mut x = build(Configuration::Rigid).condition.start(&vehicle.atmosphere);
+        let mut x = options(Configuration::Rigid).condition.start(&vehicle.atmosphere);
         (x[2], x[3], x[4]) = (0.01, 0.03, 0.02);
         let (turned, up, nose_down) = (0.011, 4.0, 0.6);
         let mut moved = x;
@@ -57,7 +57,7 @@ fn verif_rigid_motions_act_in_the_published_fits_as_incidence_does() {
         let mut inclined = x;
         inclined[3] -= turned + (up + nose_down * shift) / x[0];
         let shown = [&moved, &inclined].map(|x| {
-            let (rates, outputs) = vehicle.both(x, &[0.1, 0.4], [0.0; GUSTS]);
+            let (rates, outputs) = vehicle.derivatives_and_outputs(x, &[0.1, 0.4], [0.0; GUSTS]);
             let loads = outputs.loads;
             let arm = vehicle.airframe.mass_centre - vehicle.aero.moment_centre;
             let modal = [0, 1, 2].map(|mode| rates[RIGID + 2 * mode + 1]);
@@ -126,15 +126,15 @@ fn verif_liquid_at_rest_lies_on_the_floor() {
     for (aero, fuel_fraction) in
         AERO_SETS.into_iter().flat_map(|set| [0.0, 0.5, 1.0].map(|fuel| (set, fuel)))
     {
-        let build = Build { aero, fuel_fraction, ..build(Configuration::SloshBeam) };
-        let vehicle = Vehicle::new(&data, &build).unwrap();
-        let trim = ahv::dynamics::trim::trim(&vehicle, &build.condition).unwrap();
-        let shown = vehicle.both(&trim.state, &trim.control, [0.0; GUSTS]).1;
+        let options = VehicleOptions { aero, fuel_fraction, ..options(Configuration::SloshBeam) };
+        let vehicle = Vehicle::new(&data, &options).unwrap();
+        let trim = ahv::dynamics::trim::trim(&vehicle, &options.condition).unwrap();
+        let shown = vehicle.derivatives_and_outputs(&trim.state, &trim.control, [0.0; GUSTS]).1;
         let airframe = &vehicle.airframe;
         let moment = (shown.loads.normal - shown.loads.lift)
             * (airframe.mass_centre - vehicle.aero.moment_centre);
-        let [_, gravity] = speed_and_gravity(&data.earth, &build.condition);
-        let liquids = crate::explicit::books::liquids(&data.vehicle, &(&build).into(), gravity);
+        let [_, gravity] = speed_and_gravity(&data.earth, &options.condition);
+        let liquids = crate::explicit::books::liquids(&data.vehicle, &(&options).into(), gravity);
         for (slosh, liquid) in shown.slosh.into_iter().zip(liquids) {
             let turn = moment / airframe.inertia * (liquid.station - airframe.mass_centre);
             let left = slosh + turn * liquid.sloshing / liquid.spring;
@@ -152,9 +152,9 @@ fn verif_the_air_damps_every_mode() {
         for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
             let elastic = 1.0 / data.aero(set).reference.elastic_scale.value;
             let factors = Factors { pitch_rate: 1.0, elastic, ..Factors::default() };
-            let build = Build { aero: set, factors, ..build(configuration) };
-            let vehicle = Vehicle::new(&data, &build).unwrap();
-            let (beam, oscillators) = structure(&data, &build).unwrap();
+            let options = VehicleOptions { aero: set, factors, ..options(configuration) };
+            let vehicle = Vehicle::new(&data, &options).unwrap();
+            let (beam, oscillators) = structure(&data, &options).unwrap();
             let mass = Modes::solve(&beam, &oscillators).unwrap().modal_mass;
             let whole = whole_rates(&vehicle);
             let damping = nalgebra::DMatrix::from_fn(vehicle.modes, vehicle.modes, |i, k| {
@@ -174,7 +174,7 @@ fn whole_rates(vehicle: &Vehicle) -> [PerMode; MODES] {
     per.map(|[_, rate]| {
         std::array::from_fn(|i| {
             let slope = alpha[1][i] + 2.0 * alpha[2][i] * vehicle.aero.elastic_alpha;
-            rate[FORCE + i] + rate[INCIDENCE] * slope
+            rate[MODAL_FORCE + i] + rate[INCIDENCE] * slope
         })
     })
 }
@@ -182,8 +182,8 @@ fn whole_rates(vehicle: &Vehicle) -> [PerMode; MODES] {
 #[test]
 fn verif_the_full_build_scales_inertia_with_fuel() {
     let full = vehicle(Configuration::SloshBeam);
-    let build = Build { fuel_fraction: 0.0, ..build(Configuration::SloshBeam) };
-    let empty = Vehicle::new(&data(), &build).unwrap();
+    let options = VehicleOptions { fuel_fraction: 0.0, ..options(Configuration::SloshBeam) };
+    let empty = Vehicle::new(&data(), &options).unwrap();
     let dry = 1.0 - data().vehicle.mass.propellant_fraction.value;
     assert!(
         empty.airframe.mass < 0.36 * full.airframe.mass

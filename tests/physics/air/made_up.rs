@@ -1,8 +1,8 @@
 //! Modes that are made up: rigid motions and a parabola, with what the air answers to them by hand.
 
 use crate::model::{AERO_SETS, data};
-use ahv::air::curve_fits::{ANSWERS, Aero, DRAG, Elastic, FORCE, INFLOW, LIFT, MOMENT};
-use ahv::air::strip_theory::{Strips, derive};
+use ahv::air::curve_fits::{Aero, DRAG, ELASTIC_ROWS, Elastic, INFLOW, LIFT, MODAL_FORCE, MOMENT};
+use ahv::air::strip_theory::{StripIntegrals, elastic_derivatives};
 use ahv::data::{AeroSet, Data};
 use ahv::structure::{Beam, MODES, Modes, Shape};
 
@@ -94,8 +94,8 @@ pub fn case(set: AeroSet, shift: f64, pitch_rate: f64) -> Case {
     let shape = shapes.iter().map(shape).collect();
     let modes = Modes { count: 3, modal_mass: [1.0; MODES], shape, ..Modes::default() };
     let centre = aero.moment_centre + shift;
-    let strips = Strips::new(&beam, &modes, &data.vehicle.geometry);
-    let elastic = derive(&aero, &beam, &modes, &strips, centre, pitch_rate);
+    let strips = StripIntegrals::new(&beam, &modes, &data.vehicle.geometry);
+    let elastic = elastic_derivatives(&aero, &beam, &modes, &strips, centre, pitch_rate);
     Case { data, aero, elastic, shapes, centre }
 }
 
@@ -128,24 +128,24 @@ impl Case {
     }
 
     /// What the air answers to a field of incidence.
-    pub fn answer(&self, field: &Powers) -> [f64; ANSWERS] {
+    pub fn answer(&self, field: &Powers) -> [f64; ELASTIC_ROWS] {
         let surfaces = self.surfaces();
         let sum = |of: &Powers| -> f64 {
             surfaces.iter().map(|(span, slope)| slope * field.times(of).mean(*span)).sum()
         };
-        let mut rows = [0.0; ANSWERS];
+        let mut rows = [0.0; ELASTIC_ROWS];
         rows[LIFT] = sum(&unit());
         rows[DRAG] = self.slope(DRAG) / self.slope(LIFT) * rows[LIFT];
         rows[MOMENT] = -sum(&from(self.aero.moment_centre)) / self.aero.chord;
         rows[INFLOW] = field.mean(surfaces[0].0);
         for (i, shape) in self.shapes.iter().enumerate() {
-            rows[FORCE + i] = sum(shape);
+            rows[MODAL_FORCE + i] = sum(shape);
         }
         rows
     }
 
     /// What is large where rows cancel.
-    pub fn sizes(&self) -> [f64; ANSWERS] {
+    pub fn sizes(&self) -> [f64; ELASTIC_ROWS] {
         let length = self.data.vehicle.geometry.length_m.value;
         let uniform = self.answer(&unit());
         let far = self.answer(&from(-length));
@@ -155,8 +155,8 @@ impl Case {
     pub fn assert_rows(
         &self,
         what: &str,
-        rows: &[f64; ANSWERS],
-        expected: &[f64; ANSWERS],
+        rows: &[f64; ELASTIC_ROWS],
+        expected: &[f64; ELASTIC_ROWS],
         limit: f64,
     ) {
         for (row, size) in self.sizes().into_iter().enumerate() {

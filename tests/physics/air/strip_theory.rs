@@ -2,7 +2,7 @@
 
 use super::made_up::{BEND, BY_HAND, HEAVE, PITCH, Powers, ROUNDING, case, cases, from, unit};
 use crate::model::AERO_SETS;
-use ahv::air::curve_fits::{ANSWERS, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
+use ahv::air::curve_fits::{ELASTIC_ROWS, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT};
 use ahv::data::AeroSet;
 
 #[test]
@@ -16,7 +16,7 @@ fn verif_pitch_rate_rows_are_sums_over_the_strips() {
         }
     }
     for (name, case) in cases(0.0) {
-        assert_eq!(case.elastic.pitch_rate, [0.0; ANSWERS], "{name}: eq. (4) has no q");
+        assert_eq!(case.elastic.pitch_rate, [0.0; ELASTIC_ROWS], "{name}: eq. (4) has no q");
     }
 }
 
@@ -39,9 +39,9 @@ fn verif_a_mass_centre_moved_aft_meets_less_incidence_from_a_lifted_nose() {
         let uniform = |row: usize| match row {
             INFLOW => 1.0,
             INCIDENCE => 0.0,
-            row if row == FORCE + HEAVE => here.slope(LIFT),
-            row if row == FORCE + PITCH => -here.aero.chord * here.slope(MOMENT),
-            row if row < FORCE => here.slope(row),
+            row if row == MODAL_FORCE + HEAVE => here.slope(LIFT),
+            row if row == MODAL_FORCE + PITCH => -here.aero.chord * here.slope(MOMENT),
+            row if row < MODAL_FORCE => here.slope(row),
             row => here.answer(&unit())[row],
         };
         for d in [2.5, -1.2] {
@@ -49,7 +49,7 @@ fn verif_a_mass_centre_moved_aft_meets_less_incidence_from_a_lifted_nose() {
             let difference = std::array::from_fn(|row| {
                 there.elastic.pitch_rate[row] - here.elastic.pitch_rate[row]
             });
-            let expected: [f64; ANSWERS] = std::array::from_fn(|row| -d * uniform(row));
+            let expected: [f64; ELASTIC_ROWS] = std::array::from_fn(|row| -d * uniform(row));
             here.assert_rows(&format!("{set:?}, {d} m"), &difference, &expected, ROUNDING);
             assert!(expected[LIFT].abs() > 4.0, "{expected:?}");
         }
@@ -83,7 +83,7 @@ fn verif_bending_is_what_a_shape_has_beyond_its_rigid_motion() {
 
             let bending = case.answer(&shape.minus(1.0, &rigid));
             let turning = case.answer(&from(case.centre));
-            let mut rows: [f64; ANSWERS] = std::array::from_fn(|row| {
+            let mut rows: [f64; ELASTIC_ROWS] = std::array::from_fn(|row| {
                 -scale * bending[row] - pitch_rate * rotation * turning[row]
             });
             rows[INCIDENCE] = -rigid.at(case.centre);

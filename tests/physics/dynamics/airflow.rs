@@ -33,8 +33,8 @@ fn specific_force(vehicle: &Vehicle, x: &State, rates: &State) -> [f64; 2] {
 #[test]
 fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
     // Galilei: the forces on a vehicle in rising air are those on one that sinks through still air.
-    for build in builds() {
-        let vehicle = Vehicle::new(&data(), &build).unwrap();
+    for options in builds() {
+        let vehicle = Vehicle::new(&data(), &options).unwrap();
         let x = climbing(&vehicle);
         for gust in [[-80.0, 0.0], [-3.0, 20.0], [1e-9, 0.0], [25.0, -60.0], [0.0, 90.0]] {
             let ahead = x[0] * x[2].cos() - gust[1];
@@ -53,7 +53,8 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
             for i in std::iter::once(4).chain(RIGID..vehicle.states()) {
                 assert!(deviation(moving[i], seen[i], 10.0) < TURNED, "{gust:?} m/s, state {i}");
             }
-            let [a, b] = [(&x, gust), (&still, STILL)].map(|(x, w)| vehicle.both(x, &CONTROL, w).1);
+            let [a, b] = [(&x, gust), (&still, STILL)]
+                .map(|(x, w)| vehicle.derivatives_and_outputs(x, &CONTROL, w).1);
             assert!(deviation(a.alpha_probe, b.alpha_probe, 0.01) < TURNED);
             assert!(deviation(a.imu.n_x, b.imu.n_x, 1.0) < TURNED);
             assert!(deviation(a.loads.mach, b.loads.mach, 0.0) < TURNED);
@@ -95,7 +96,7 @@ fn verif_a_gust_has_exact_derivatives_also_where_it_is_zero() {
 fn verif_the_envelope_is_that_of_the_incidence_to_the_moving_air() {
     let gusty = |gust: f64, alpha: f64| {
         let mut flight = flight_with(|parameters| {
-            parameters.build.configuration = Configuration::Rigid;
+            parameters.options.configuration = Configuration::Rigid;
             parameters.offsets.alpha = alpha;
         });
         flight.set_input(W_GUST, gust);

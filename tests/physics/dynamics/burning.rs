@@ -1,8 +1,8 @@
 //! Free vibration while fuel burns, without air, against the whole structure in a basis that stays.
 
-use crate::model::{build, data};
+use crate::model::{data, options};
 use ahv::structure::{Beam, MODES, Modes, Oscillator};
-use ahv::vehicle::{Build, Configuration, Vehicle, structure};
+use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
 use nalgebra::{DMatrix, DVector};
 
 /// Share of full tanks burnt per second: three hundred times what the engine takes.
@@ -57,8 +57,8 @@ fn matrix(left: &[Vec<f64>], right: &[Vec<f64>]) -> DMatrix<f64> {
 
 /// Structure and modes at a level.
 fn level(fuel_fraction: f64) -> (Beam, Vec<Oscillator>, Modes) {
-    let build = Build { fuel_fraction, ..build(Configuration::SloshBeam) };
-    let (beam, oscillators) = structure(&data(), &build).unwrap();
+    let options = VehicleOptions { fuel_fraction, ..options(Configuration::SloshBeam) };
+    let (beam, oscillators) = structure(&data(), &options).unwrap();
     let modes = Modes::solve(&beam, &oscillators).unwrap();
     (beam, oscillators, modes)
 }
@@ -128,9 +128,9 @@ fn fraction(half_step: usize) -> f64 {
 
 #[test]
 fn verif_modes_that_turn_vibrate_as_the_whole_structure_does() {
-    let build = Build { fuel_burn: true, ..build(Configuration::SloshBeam) };
-    let vehicle = Vehicle::new(&data(), &build).unwrap();
-    let burn = vehicle.burn.as_ref().unwrap();
+    let options = VehicleOptions { fuel_burn: true, ..options(Configuration::SloshBeam) };
+    let vehicle = Vehicle::new(&data(), &options).unwrap();
+    let burn = vehicle.fuel_table.as_ref().unwrap();
     let start = [0.3, 0.05, 0.01, 0.4, -0.3];
 
     // The whole structure: mass and springs change, the basis does not.
@@ -142,7 +142,7 @@ fn verif_modes_that_turn_vibrate_as_the_whole_structure_does() {
     let x = matrix(&momenta, &shapes) * DVector::from_column_slice(&start);
     let operators: Vec<DMatrix<f64>> = (0..=2 * steps())
         .map(|half| {
-            let level = Build { fuel_fraction: fraction(half), ..build };
+            let level = VehicleOptions { fuel_fraction: fraction(half), ..options };
             let (beam, oscillators) = structure(&data(), &level).unwrap();
             let [mass, stiffness] = [mass_times, stiffness_times].map(|times| {
                 let products: Vec<_> =
@@ -178,7 +178,7 @@ fn verif_modes_that_turn_vibrate_as_the_whole_structure_does() {
     for (n, at) in keep.into_iter().enumerate() {
         let (beam, others, modes) = level(fraction(2 * at));
         let reference = level(1.0);
-        let modes = modes.turned(&beam, &others, (&reference.2, &reference.1)).unwrap();
+        let modes = modes.aligned_to(&beam, &others, (&reference.2, &reference.1)).unwrap();
         let displacement = basis.iter().zip(whole[n][0].iter()).fold(
             vec![0.0; basis[0].len()],
             |mut sum, (v, factor)| {

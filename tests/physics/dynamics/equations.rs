@@ -4,7 +4,7 @@ use crate::model::{
     AERO_SETS, CONFIGURATIONS, builds, data, deviation, flight, flight_with, vehicle, vehicle_with,
 };
 use ahv::data::AeroSet;
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Inputs;
@@ -27,12 +27,12 @@ fn disturbed(vehicle: &Vehicle, scale: [f64; STATES]) -> State {
 
 #[test]
 fn verif_trim_leaves_no_acceleration() {
-    for build in builds() {
+    for options in builds() {
         for fuel_fraction in [0.0, 0.3, 1.0] {
             for mach in [7.0, 8.0, 9.0] {
-                let build = ahv::vehicle::Build { fuel_fraction, ..build };
-                let vehicle = Vehicle::new(&data(), &build).unwrap();
-                let condition = Condition { mach, ..build.condition };
+                let options = ahv::vehicle::VehicleOptions { fuel_fraction, ..options };
+                let vehicle = Vehicle::new(&data(), &options).unwrap();
+                let condition = Condition { mach, ..options.condition };
                 let trimmed = trim(&vehicle, &condition).unwrap();
                 let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, [0.0; 2]);
                 for (i, rate) in rates.into_iter().enumerate() {
@@ -40,7 +40,7 @@ fn verif_trim_leaves_no_acceleration() {
                     let size = if i < 5 { 10.0 } else { 1e4 };
                     assert!(
                         rate.abs() < STEADY * size,
-                        "{build:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
+                        "{options:?}, fuel {fuel_fraction}, Mach {mach}: rate {i} = {rate:e}"
                     );
                 }
             }
@@ -85,8 +85,8 @@ proptest! {
     #[test]
     fn verif_angles_are_kinematically_consistent(scale in prop::array::uniform16(-1.0..1.0_f64)) {
         // alpha' + gamma' = q: the sign missing in the printed eq. (3).
-        for build in builds() {
-            let vehicle = Vehicle::new(&data(), &build).unwrap();
+        for options in builds() {
+            let vehicle = Vehicle::new(&data(), &options).unwrap();
             let x = disturbed(&vehicle, scale);
             let rates = vehicle.derivatives(&x, &[0.1, 0.3], [0.0; 2]);
             prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
@@ -96,10 +96,10 @@ proptest! {
 
     #[test]
     fn verif_dual_numbers_agree_with_differences(scale in prop::array::uniform16(-1.0..1.0_f64)) {
-        for build in builds() {
-            let vehicle = Vehicle::new(&data(), &build).unwrap();
+        for options in builds() {
+            let vehicle = Vehicle::new(&data(), &options).unwrap();
             let (x, u) = (disturbed(&vehicle, scale), [0.1, 0.3]);
-            let linear = Linear::new(&vehicle, &x, &u);
+            let linear = LinearModel::new(&vehicle, &x, &u);
             let n = vehicle.states();
             let step = 1e-3;
             for column in 0..n + CONTROLS {
@@ -123,7 +123,7 @@ proptest! {
                     let floor = (one.0[row].abs() + 1e-3) / size;
                     prop_assert!(
                         deviation(difference, exact, floor) < DIFFERENCES,
-                        "{build:?} ({row}, {column}): {difference} against {exact}"
+                        "{options:?} ({row}, {column}): {difference} against {exact}"
                     );
                 }
             }
@@ -133,8 +133,8 @@ proptest! {
 
 #[test]
 fn verif_dual_numbers_carry_the_plain_value() {
-    for build in builds() {
-        let vehicle = Vehicle::new(&data(), &build).unwrap();
+    for options in builds() {
+        let vehicle = Vehicle::new(&data(), &options).unwrap();
         let x = disturbed(&vehicle, [0.3; STATES]);
         let dual = vehicle.derivatives(
             &x.map(|v| Dual::<1> { re: v, eps: [0.0] }),
@@ -159,8 +159,8 @@ fn verif_examples_stay_inside_the_envelope() {
             lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect();
         for configuration in CONFIGURATIONS {
             let mut flight = flight_with(|p| {
-                p.build.configuration = configuration;
-                p.build.aero = set;
+                p.options.configuration = configuration;
+                p.options.aero = set;
             });
             for (i, row) in rows.iter().enumerate() {
                 for (name, value) in names.iter().zip(row).skip(1) {
@@ -184,7 +184,7 @@ fn verif_zeros_are_where_the_rosenbrock_matrix_is_singular() {
     for configuration in CONFIGURATIONS {
         let flight = flight(configuration);
         let (vehicle, trim) = (flight.vehicle(), flight.trim());
-        let linear = Linear::new(vehicle, &trim.state, &trim.control);
+        let linear = LinearModel::new(vehicle, &trim.state, &trim.control);
         let n = vehicle.states();
         let zeros = linear.zeros();
         assert_eq!(zeros.len(), n - 2);

@@ -6,11 +6,12 @@ use crate::explicit::air::speed_and_gravity;
 use crate::explicit::beam::Beam;
 use crate::explicit::books::Books;
 use crate::explicit::extrapolation::extrapolated;
-use crate::model::{AERO_SETS, assert_close, build, data};
+use crate::model::{AERO_SETS, assert_close, data, options};
 use ahv::data::Data;
 use ahv::structure::MODES;
 use ahv::vehicle::{
-    Body, Build, Chosen, Configuration, Factors, GUSTS, RIGID, STATES, State, Vehicle,
+    Body, Configuration, Factors, GUSTS, RIGID, STATES, State, Vehicle, VehicleDefinition,
+    VehicleOptions,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -45,20 +46,20 @@ fn columns(body: &Body) -> Vec<DVector<f64>> {
     body.displacements().into_iter().map(DVector::from_vec).collect()
 }
 
-fn own(data: &Data, build: &Build) -> (Books, Beam, f64) {
-    let [_, gravity] = speed_and_gravity(&data.earth, &build.condition);
-    let books = Books::new(&data.vehicle, data.aero(build.aero), &build.into(), gravity);
+fn own(data: &Data, options: &VehicleOptions) -> (Books, Beam, f64) {
+    let [_, gravity] = speed_and_gravity(&data.earth, &options.condition);
+    let books = Books::new(&data.vehicle, data.aero(options.aero), &options.into(), gravity);
     let elements = data.vehicle.beam.elements.value as usize;
     (books, Beam::new(&data.vehicle, &books, elements, 1.0), gravity)
 }
 
 impl Case {
     /// Without air, and so without thrust.
-    fn new(data: &Data, build: &Build) -> Self {
-        let mut vehicle = Vehicle::new(data, build).unwrap();
+    fn new(data: &Data, options: &VehicleOptions) -> Self {
+        let mut vehicle = Vehicle::new(data, options).unwrap();
         vehicle.aero.area = 0.0;
-        let (books, beam, gravity) = own(data, build);
-        let shapes = columns(&Body::new(&Chosen::new(data, build)).unwrap());
+        let (books, beam, gravity) = own(data, options);
+        let shapes = columns(&Body::new(&VehicleDefinition::new(data, options)).unwrap());
         Self { vehicle, beam, books, shapes, gravity }
     }
 
@@ -98,8 +99,8 @@ impl Case {
         [distance * x[0] * x[2].cos(), 0.5 * x[0] * x[0] + potential]
     }
 
-    fn start(&self, build: &Build) -> State {
-        let mut x = build.condition.start(&self.vehicle.atmosphere);
+    fn start(&self, options: &VehicleOptions) -> State {
+        let mut x = options.condition.start(&self.vehicle.atmosphere);
         (x[2], x[3], x[4]) = (0.01, 0.02, PITCH_RATE);
         x[STATES - 1] = self.vehicle.fuel;
         for i in 0..MODES {
@@ -142,15 +143,21 @@ impl Case {
     }
 }
 
-fn builds(slosh_damping: f64) -> Vec<Build> {
+fn builds(slosh_damping: f64) -> Vec<VehicleOptions> {
     let mut builds = Vec::new();
     for aero in AERO_SETS {
         for fuel_fraction in FUEL_FRACTIONS {
             for mass_centre_shift_m in SHIFTS {
                 let none = Factors { structural_damping: 0.0, ..Factors::default() };
                 let factors = Factors { mass_centre_shift_m, ..none };
-                let build = build(Configuration::SloshBeam);
-                builds.push(Build { aero, fuel_fraction, slosh_damping, factors, ..build });
+                let options = options(Configuration::SloshBeam);
+                builds.push(VehicleOptions {
+                    aero,
+                    fuel_fraction,
+                    slosh_damping,
+                    factors,
+                    ..options
+                });
             }
         }
     }
@@ -174,9 +181,9 @@ fn assert_no_momentum(beam: &Beam, books: &Books, shapes: &[DVector<f64>], name:
 #[test]
 fn verif_no_mode_has_a_momentum() {
     let data = data();
-    for build in builds(0.05) {
-        let Case { vehicle, beam, books, shapes, .. } = Case::new(&data, &build);
-        let name = format!("{build:?}");
+    for options in builds(0.05) {
+        let Case { vehicle, beam, books, shapes, .. } = Case::new(&data, &options);
+        let name = format!("{options:?}");
         assert_no_momentum(&beam, &books, &shapes, &name);
         for (i, shape) in shapes.iter().enumerate() {
             let square = 2.0 * beam.strain_energy(shape) / shape.dot(&beam.mass_times(shape));
@@ -188,16 +195,16 @@ fn verif_no_mode_has_a_momentum() {
 #[test]
 fn verif_a_free_body_rings_and_keeps_momenta_and_energy() {
     let data = data();
-    for build in builds(0.0) {
-        let case = Case::new(&data, &build);
-        let start = case.start(&build);
+    for options in builds(0.0) {
+        let case = Case::new(&data, &options);
+        let start = case.start(&options);
         let (first, orbit) = (case.kept(&start), case.orbit(&data, &start));
         assert!(first[0][0].abs() < KEPT * first[0][1], "{first:?}");
         assert_close("turn", first[1][0], -case.books.total.inertia * PITCH_RATE, KEPT);
         for (x, _) in case.fly(start).iter().step_by(10) {
             for ([then, size], [now, _]) in first.into_iter().zip(case.kept(x)) {
                 let off = (now - then) / size;
-                assert!(off.abs() < KEPT, "{build:?}: {then} became {now}, {off:.1e}");
+                assert!(off.abs() < KEPT, "{options:?}: {then} became {now}, {off:.1e}");
             }
             for (then, now) in orbit.into_iter().zip(case.orbit(&data, x)) {
                 assert_close("flight", now, then, KEPT);
@@ -209,22 +216,22 @@ fn verif_a_free_body_rings_and_keeps_momenta_and_energy() {
 #[test]
 fn verif_energy_falls_by_what_the_dampers_take() {
     let data = data();
-    for build in builds(0.05) {
-        let case = Case::new(&data, &build);
-        let start = case.start(&build);
+    for options in builds(0.05) {
+        let case = Case::new(&data, &options);
+        let start = case.start(&options);
         let first = case.kept(&start);
         let flight = case.fly(start);
         for (x, work) in flight.iter().step_by(10) {
             let now = case.kept(x);
             let off = (now[2][0] + work - first[2][0]) / first[2][0];
-            assert!(off.abs() < KEPT, "{build:?}: {off:.1e}");
+            assert!(off.abs() < KEPT, "{options:?}: {off:.1e}");
             for k in 0..2 {
                 let off = (now[k][0] - first[k][0]) / first[k][1];
-                assert!(off.abs() < KEPT, "{build:?}: {off:.1e}");
+                assert!(off.abs() < KEPT, "{options:?}: {off:.1e}");
             }
         }
         let work = flight[flight.len() - 1].1;
-        assert!(work > 1e-3 * first[2][0], "{build:?}: {work}");
+        assert!(work > 1e-3 * first[2][0], "{options:?}: {work}");
     }
 }
 
@@ -232,18 +239,18 @@ fn verif_energy_falls_by_what_the_dampers_take() {
 fn verif_every_level_of_a_burn_is_the_vehicle_of_its_fuel() {
     let data = data();
     let residual = data.vehicle.mass.residual_fraction.value;
-    for build in builds(0.05).into_iter().filter(|build| build.fuel_fraction == 1.0) {
-        let build = Build { fuel_burn: true, ..build };
-        let vehicle = Vehicle::new(&data, &build).unwrap();
-        let burn = vehicle.burn.as_ref().unwrap();
-        let chosen = Chosen::new(&data, &build);
-        let full = Body::new(&chosen).unwrap();
+    for options in builds(0.05).into_iter().filter(|options| options.fuel_fraction == 1.0) {
+        let options = VehicleOptions { fuel_burn: true, ..options };
+        let vehicle = Vehicle::new(&data, &options).unwrap();
+        let burn = vehicle.fuel_table.as_ref().unwrap();
+        let definition = VehicleDefinition::new(&data, &options);
+        let full = Body::new(&definition).unwrap();
         for level in 0..LEVELS {
             let part = level as f64 / (LEVELS - 1) as f64;
             let root = 1.0 - part * (1.0 - (LAST * residual).sqrt());
             let fuel_fraction = (root * root - residual) / (1.0 - residual);
-            let at = Build { fuel_fraction, fuel_burn: false, ..build };
-            let name = format!("level {level} of {build:?}");
+            let at = VehicleOptions { fuel_fraction, fuel_burn: false, ..options };
+            let name = format!("level {level} of {options:?}");
 
             let direct = Vehicle::new(&data, &at).unwrap();
             let (books, beam, _) = own(&data, &at);
@@ -261,8 +268,8 @@ fn verif_every_level_of_a_burn_is_the_vehicle_of_its_fuel() {
                 assert_close(&name, square, expected, KEPT);
             }
 
-            let level = chosen.at(fuel_fraction);
-            let turned = Body::new(&level).unwrap().turned(&level, &full).unwrap();
+            let level = definition.at(fuel_fraction);
+            let turned = Body::new(&level).unwrap().aligned_to(&level, &full).unwrap();
             assert_no_momentum(&beam, &books, &columns(&turned), &name);
         }
     }
@@ -271,11 +278,11 @@ fn verif_every_level_of_a_burn_is_the_vehicle_of_its_fuel() {
 #[test]
 fn verif_a_beam_without_liquid_keeps_its_modes() {
     let data = data();
-    let plain = build(Configuration::EvenMassBeam);
+    let plain = options(Configuration::EvenMassBeam);
     let modes = Vehicle::new(&data, &plain).unwrap().omega;
     for (mass_centre_shift_m, inertia) in [(0.5, 1.0), (-0.5, 3.0), (0.0, 0.2)] {
         let factors = Factors { mass_centre_shift_m, inertia, ..Factors::default() };
-        let vehicle = Vehicle::new(&data, &Build { factors, ..plain }).unwrap();
+        let vehicle = Vehicle::new(&data, &VehicleOptions { factors, ..plain }).unwrap();
         for (got, expected) in vehicle.omega.into_iter().zip(modes).take(vehicle.modes) {
             assert_close("frequency", got, expected, KEPT);
         }

@@ -5,14 +5,14 @@
 use crate::explicit::beam::Beam;
 use crate::explicit::elastic::Elastic;
 use crate::explicit::flight::{Directions, Explicit};
-use crate::model::{AERO_SETS, assert_close, build, data};
+use crate::model::{AERO_SETS, assert_close, data, options};
 use ahv::air::curve_fits::INCIDENCE;
 use ahv::data::Data;
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::error::Error;
 use ahv::structure::MODES;
-use ahv::vehicle::{Build, Configuration, Factors, RIGID, Vehicle};
+use ahv::vehicle::{Configuration, Factors, RIGID, Vehicle, VehicleOptions};
 use nalgebra::Complex;
 
 const FUEL_FRACTIONS: [f64; 4] = [0.05, 0.25, 0.5, 1.0];
@@ -50,7 +50,7 @@ const FAR_M: f64 = 3.0;
 /// One in this many may be refused.
 const FEW: usize = 10;
 
-fn cases(stiffness: f64) -> Vec<Build> {
+fn cases(stiffness: f64) -> Vec<VehicleOptions> {
     let mut cases = Vec::new();
     for aero in AERO_SETS {
         for fuel_fraction in FUEL_FRACTIONS {
@@ -64,13 +64,13 @@ fn cases(stiffness: f64) -> Vec<Build> {
                                 pitch_rate,
                                 ..Factors::default()
                             };
-                            cases.push(Build {
+                            cases.push(VehicleOptions {
                                 aero,
                                 fuel_fraction,
                                 slosh_frequency,
                                 slosh_damping,
                                 factors,
-                                ..build(Configuration::SloshBeam)
+                                ..options(Configuration::SloshBeam)
                             });
                         }
                     }
@@ -82,23 +82,24 @@ fn cases(stiffness: f64) -> Vec<Build> {
 }
 
 /// Calls `f` with every case that flies; the others must be few and say why.
-fn for_all(stiffness: f64, mut f: impl FnMut(&Build, &Vehicle, &Trim)) {
+fn for_all(stiffness: f64, mut f: impl FnMut(&VehicleOptions, &Vehicle, &Trim)) {
     let (data, cases) = (data(), cases(stiffness));
     let mut refused = Vec::new();
-    for build in &cases {
-        let flown = Vehicle::new(&data, build)
-            .and_then(|vehicle| trim(&vehicle, &build.condition).map(|trim| (vehicle, trim)));
+    for options in &cases {
+        let flown = Vehicle::new(&data, options)
+            .and_then(|vehicle| trim(&vehicle, &options.condition).map(|trim| (vehicle, trim)));
         match flown {
-            Ok((vehicle, trim)) => f(build, &vehicle, &trim),
+            Ok((vehicle, trim)) => f(options, &vehicle, &trim),
             Err(error @ (Error::Inertia { .. } | Error::Trim { .. })) => refused.push(error),
-            Err(error) => panic!("{build:?}: {error}"),
+            Err(error) => panic!("{options:?}: {error}"),
         }
     }
     assert!(refused.len() * FEW <= cases.len(), "{} of {}", refused.len(), cases.len());
 }
 
-fn name(build: &Build) -> String {
-    let Build { aero, fuel_fraction, slosh_frequency, slosh_damping, factors, .. } = build;
+fn name(options: &VehicleOptions) -> String {
+    let VehicleOptions { aero, fuel_fraction, slosh_frequency, slosh_damping, factors, .. } =
+        options;
     let Factors { mass_centre_shift_m, pitch_rate, .. } = factors;
     format!(
         "{aero:?}, fuel {fuel_fraction}, slosh {slosh_frequency} rad/s, damping {slosh_damping}, mass \
@@ -125,8 +126,8 @@ fn real_pair(values: &[Complex<f64>]) -> [f64; 2] {
     [reals().fold(0.0, f64::max), reals().fold(0.0, f64::min)]
 }
 
-fn explicit<'a>(data: &'a Data, build: &Build, directions: Directions) -> Explicit<'a> {
-    Explicit::new(data, build.aero, &build.into(), &build.condition, directions)
+fn explicit<'a>(data: &'a Data, options: &VehicleOptions, directions: Directions) -> Explicit<'a> {
+    Explicit::new(data, options.aero, &options.into(), &options.condition, directions)
 }
 
 /// Both short-period poles, both real zeros for either flight-path angle, and what sloshes among them;
@@ -134,19 +135,19 @@ fn explicit<'a>(data: &'a Data, build: &Build, directions: Directions) -> Explic
 fn compare(directions: Directions, [real, sloshing]: [f64; 2]) {
     let data = data();
     let station = data.vehicle.default.imu_station_m.value;
-    for_all(STIFF, |build, vehicle, trim| {
-        let name = name(build);
-        let of_set = &data.aero(build.aero).inertia.mass_centre_shift_m;
+    for_all(STIFF, |options, vehicle, trim| {
+        let name = name(options);
+        let of_set = &data.aero(options.aero).inertia.mass_centre_shift_m;
         let levers = match directions {
             Directions::Equations => 1.0,
             Directions::Plane => {
                 1.0 + of_set.as_ref().map_or(0.0, |shift| shift.value.abs()) / FAR_M
             }
         };
-        let explicit = explicit(&data, build, directions);
+        let explicit = explicit(&data, options, directions);
         let [mean, sensed] = [None, Some(station)].map(|station| explicit.linear(station));
-        let own = Linear::new(vehicle, &trim.state, &trim.control);
-        let imu = Linear::sensed(vehicle, &trim.state, &trim.control);
+        let own = LinearModel::new(vehicle, &trim.state, &trim.control);
+        let imu = LinearModel::with_imu_gamma(vehicle, &trim.state, &trim.control);
         for (what, found, expected) in [
             ("poles", own.poles(), mean.poles()),
             ("zeros", own.zeros(), mean.zeros()),
@@ -181,32 +182,37 @@ fn verif_directions_that_the_equations_leave_out_matter_little() {
 }
 
 /// Both short-period poles of the beam as it is: of the library, of the rigid body, of all nodes.
-fn bending_poles(data: &Data, build: &Build, vehicle: &Vehicle, trim: &Trim) -> [[f64; 3]; 2] {
-    let explicit = explicit(data, build, Directions::Plane);
+fn bending_poles(
+    data: &Data,
+    options: &VehicleOptions,
+    vehicle: &Vehicle,
+    trim: &Trim,
+) -> [[f64; 3]; 2] {
+    let explicit = explicit(data, options, Directions::Plane);
     let beam = Beam::new(&data.vehicle, &explicit.books, ELEMENTS, 1.0);
     // The point of linearisation is the library's.
     let per_eta = vehicle.airframe.elastic.per.map(|[per_eta, _]| per_eta[INCIDENCE]);
     let turned: f64 = (0..MODES).map(|k| per_eta[k] * trim.state[RIGID + 2 * k]).sum();
     let steady = [trim.state[3] + turned, trim.control[0], trim.control[1]];
-    let mut set = data.aero(build.aero).clone();
-    set.reference.elastic_scale.value *= build.factors.elastic;
-    let rate = build.factors.pitch_rate;
+    let mut set = data.aero(options.aero).clone();
+    set.reference.elastic_scale.value *= options.factors.elastic;
+    let rate = options.factors.pitch_rate;
     let bending = Elastic::new(&explicit, &beam, (&data.vehicle, &set), steady, rate);
     let rigid = real_pair(&explicit.linear(None).poles());
-    let found = real_pair(&Linear::new(vehicle, &trim.state, &trim.control).poles());
+    let found = real_pair(&LinearModel::new(vehicle, &trim.state, &trim.control).poles());
     [0, 1].map(|k| [found[k], rigid[k], bending.pole(rigid[k])])
 }
 
 #[test]
 fn verif_the_beam_as_it_is_flies_as_all_its_nodes_do() {
     let data = data();
-    for_all(1.0, |build, vehicle, trim| {
-        if build.slosh_damping != SLOSH_DAMPINGS[1] {
+    for_all(1.0, |options, vehicle, trim| {
+        if options.slosh_damping != SLOSH_DAMPINGS[1] {
             return;
         }
-        for [found, rigid, bending] in bending_poles(&data, build, vehicle, trim) {
-            assert_close(&name(build), found, rigid, BENDING);
-            assert_close(&name(build), found, bending, BENDING_BODY);
+        for [found, rigid, bending] in bending_poles(&data, options, vehicle, trim) {
+            assert_close(&name(options), found, rigid, BENDING);
+            assert_close(&name(options), found, bending, BENDING_BODY);
         }
     });
 }
@@ -217,10 +223,10 @@ fn verif_the_air_answers_to_bending_by_the_elastic_factor_alone() {
     for aero in AERO_SETS {
         for elastic in [0.0, 1.5] {
             let factors = Factors { elastic, ..Factors::default() };
-            let build = Build { aero, factors, ..build(Configuration::SloshBeam) };
-            let vehicle = Vehicle::new(&data, &build).unwrap();
-            let trim = trim(&vehicle, &build.condition).unwrap();
-            for [found, _, bending] in bending_poles(&data, &build, &vehicle, &trim) {
+            let options = VehicleOptions { aero, factors, ..options(Configuration::SloshBeam) };
+            let vehicle = Vehicle::new(&data, &options).unwrap();
+            let trim = trim(&vehicle, &options.condition).unwrap();
+            for [found, _, bending] in bending_poles(&data, &options, &vehicle, &trim) {
                 assert_close(&format!("{aero:?}, {elastic}"), found, bending, BENDING_BODY);
             }
         }
@@ -230,10 +236,10 @@ fn verif_the_air_answers_to_bending_by_the_elastic_factor_alone() {
 #[test]
 fn verif_mass_books_are_those_of_the_data_files() {
     let data = data();
-    for_all(1.0, |build, vehicle, _| {
-        let name = name(build);
+    for_all(1.0, |options, vehicle, _| {
+        let name = name(options);
         let (got, expected) =
-            (&vehicle.airframe, explicit(&data, build, Directions::Plane).books.total);
+            (&vehicle.airframe, explicit(&data, options, Directions::Plane).books.total);
         assert_close(&name, got.mass, expected.mass, ROUNDING);
         assert_close(&name, got.mass_centre, expected.centre, ROUNDING);
         assert_close(&name, got.inertia, expected.inertia, ROUNDING);
@@ -243,14 +249,14 @@ fn verif_mass_books_are_those_of_the_data_files() {
 #[test]
 fn verif_a_stiff_vehicle_is_trimmed_as_a_rigid_one() {
     let data = data();
-    for_all(STIFF, |build, vehicle, trim| {
-        let steady = explicit(&data, build, Directions::Plane).steady;
+    for_all(STIFF, |options, vehicle, trim| {
+        let steady = explicit(&data, options, Directions::Plane).steady;
         let [delta_e, phi] = [0, 1].map(|k| trim.control[k] - steady.control[k]);
         // Liquid that lies askew, by millimetres at 2 rad/s, turns the mean axes, not the body.
         let per = vehicle.airframe.elastic.per;
         let turned = (0..MODES).map(|k| per[k][0][INCIDENCE] * trim.state[RIGID + 2 * k]);
         let alpha = trim.state[3] + turned.sum::<f64>();
         let off = [alpha - steady.alpha, delta_e, phi];
-        assert!(off.iter().all(|off| off.abs() < SAME_TRIM), "{}: {off:?}", name(build));
+        assert!(off.iter().all(|off| off.abs() < SAME_TRIM), "{}: {off:?}", name(options));
     });
 }

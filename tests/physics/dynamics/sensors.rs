@@ -2,13 +2,14 @@
 //! differences in time.
 
 use crate::explicit::extrapolation::extrapolated;
-use crate::model::{CONFIGURATIONS, build, data, flight, setup};
+use crate::model::{CONFIGURATIONS, data, flight, options, setup};
 use ahv::dynamics::Outputs;
 use ahv::error::Error;
 use ahv::flight::Setup;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{
-    Body, Build, Chosen, Condition, Configuration, Gust, NOMINAL, RIGID, STATES, State, Vehicle,
+    Body, Condition, Configuration, Gust, NOMINAL, RIGID, STATES, State, Vehicle,
+    VehicleDefinition, VehicleOptions,
 };
 use fmi_model::table::find;
 
@@ -38,24 +39,24 @@ const DIFFERENCES: f64 = 1e-7;
 /// slope.
 struct Case {
     vehicle: Vehicle,
-    build: Build,
+    options: VehicleOptions,
     nodes: [usize; 2],
     shapes: Vec<Vec<f64>>,
 }
 
 impl Case {
-    fn new(build: &Build, nodes: [usize; 2]) -> Self {
+    fn new(options: &VehicleOptions, nodes: [usize; 2]) -> Self {
         let data = data();
         let elements = f64::from(data.vehicle.beam.elements.value);
         let [imu, probe] =
             nodes.map(|n| data.vehicle.geometry.length_m.value * n as f64 / elements);
-        let mut build = *build;
-        (build.stations.imu, build.stations.probe) = (imu, probe);
-        let shapes = match build.configuration {
+        let mut options = *options;
+        (options.stations.imu, options.stations.probe) = (imu, probe);
+        let shapes = match options.configuration {
             Configuration::Rigid => Vec::new(),
-            _ => Body::new(&Chosen::new(&data, &build)).unwrap().displacements(),
+            _ => Body::new(&VehicleDefinition::new(&data, &options)).unwrap().displacements(),
         };
-        Self { vehicle: Vehicle::new(&data, &build).unwrap(), build, nodes, shapes }
+        Self { vehicle: Vehicle::new(&data, &options).unwrap(), options, nodes, shapes }
     }
 
     /// Every state in motion.
@@ -80,8 +81,8 @@ impl Case {
     /// Forward and up, m, and attitude, rad, of a sensor at a state; the mass centre is at `at`.
     fn place(&self, x: &State, at: [f64; 2], sensor: usize) -> [f64; 3] {
         let [w, slope] = self.bent(x, self.nodes[sensor]);
-        let station = [self.build.stations.imu, self.build.stations.probe][sensor];
-        let centre = match &self.vehicle.burn {
+        let station = [self.options.stations.imu, self.options.stations.probe][sensor];
+        let centre = match &self.vehicle.fuel_table {
             None => self.vehicle.airframe.mass_centre,
             Some(burn) => burn.airframe(x[STATES - 1]).mass_centre,
         };
@@ -182,9 +183,9 @@ impl From<Outputs> for Shown {
 
 fn assert_shown(case: &Case, gust: Gust, [angle, load_factor]: [f64; 2]) {
     let start = case.start();
-    let shown = Shown::from(case.vehicle.both(&start, &CONTROL, gust).1);
+    let shown = Shown::from(case.vehicle.derivatives_and_outputs(&start, &CONTROL, gust).1);
     let expected = case.expected(&start, gust);
-    let what = format!("{:?}, {:?}, {gust:?}", case.build.configuration, case.nodes);
+    let what = format!("{:?}, {:?}, {gust:?}", case.options.configuration, case.nodes);
     for (got, wanted) in shown.angles.into_iter().zip(expected.angles) {
         let off = (got - wanted).abs();
         assert!(off < angle, "{what}: {shown:?}, {expected:?}: {off:.1e}");
@@ -199,7 +200,7 @@ fn assert_shown(case: &Case, gust: Gust, [angle, load_factor]: [f64; 2]) {
 fn verif_sensors_show_the_motion_of_their_place() {
     for configuration in CONFIGURATIONS {
         for nodes in NODES {
-            let case = Case::new(&build(configuration), nodes);
+            let case = Case::new(&options(configuration), nodes);
             for gust in GUSTS {
                 assert_shown(&case, gust, [ANGLE, LOAD_FACTOR]);
             }
@@ -210,12 +211,12 @@ fn verif_sensors_show_the_motion_of_their_place() {
 #[test]
 fn verif_sensors_show_the_motion_of_their_place_while_fuel_burns() {
     for nodes in NODES {
-        let burning = Build { fuel_burn: true, ..build(Configuration::SloshBeam) };
+        let burning = VehicleOptions { fuel_burn: true, ..options(Configuration::SloshBeam) };
         let mut case = Case::new(&burning, nodes);
         // The shapes of the start are those of its level.
-        let level = Chosen::new(&data(), &case.build).at(0.8);
-        let full = Body::new(&Chosen::new(&data(), &case.build)).unwrap();
-        case.shapes = Body::new(&level).unwrap().turned(&level, &full).unwrap().displacements();
+        let level = VehicleDefinition::new(&data(), &case.options).at(0.8);
+        let full = Body::new(&VehicleDefinition::new(&data(), &case.options)).unwrap();
+        case.shapes = Body::new(&level).unwrap().aligned_to(&level, &full).unwrap().displacements();
         assert_shown(&case, GUSTS[3], [CREEP_ANGLE, CREEP_LOAD_FACTOR]);
     }
 }
@@ -223,14 +224,14 @@ fn verif_sensors_show_the_motion_of_their_place_while_fuel_burns() {
 #[test]
 fn verif_between_the_nodes_a_sensor_is_on_the_cubic_of_its_element() {
     let data = data();
-    let plain = build(Configuration::SloshBeam);
-    let shapes = Body::new(&Chosen::new(&data, &plain)).unwrap().displacements();
+    let plain = options(Configuration::SloshBeam);
+    let shapes = Body::new(&VehicleDefinition::new(&data, &plain)).unwrap().displacements();
     let element =
         data.vehicle.geometry.length_m.value / f64::from(data.vehicle.beam.elements.value);
     for (node, part) in [(0, 0.25), (137, 0.5), (499, 0.9)] {
-        let mut build = plain;
-        build.stations.imu = (node as f64 + part) * element;
-        let vehicle = Vehicle::new(&data, &build).unwrap();
+        let mut options = plain;
+        options.stations.imu = (node as f64 + part) * element;
+        let vehicle = Vehicle::new(&data, &options).unwrap();
         for (i, shape) in shapes.iter().enumerate() {
             let [w0, s0, w1, s1] = [0, 1, 2, 3].map(|k| shape[2 * node + k]);
             // Divided differences of Hermite's interpolation.
@@ -240,7 +241,7 @@ fn verif_between_the_nodes_a_sensor_is_on_the_cubic_of_its_element() {
             let slope = s0 + 2.0 * part * second + (3.0 * part - 2.0) * part * third;
             for (got, expected) in [(0, w), (1, slope)] {
                 let off = (vehicle.airframe.imu[got][i] - expected).abs();
-                assert!(off < 1e-12, "mode {i} at {}: {off:.1e}", build.stations.imu);
+                assert!(off < 1e-12, "mode {i} at {}: {off:.1e}", options.stations.imu);
             }
         }
     }
@@ -302,7 +303,7 @@ fn verif_sensors_have_exact_derivatives() {
     const KNOWN: usize = STATES + 4;
     const STEP: f64 = 0.01;
     for fuel_burn in [false, true] {
-        let burning = Build { fuel_burn, ..build(Configuration::SloshBeam) };
+        let burning = VehicleOptions { fuel_burn, ..options(Configuration::SloshBeam) };
         let case = Case::new(&burning, NODES[2]);
         let start = case.start();
         let size = |k: usize| match k {
@@ -321,13 +322,13 @@ fn verif_sensors_have_exact_derivatives() {
                 let x = std::array::from_fn(moved);
                 let u = std::array::from_fn(|i| moved(STATES + i));
                 let gust = std::array::from_fn(|i| moved(STATES + 2 + i));
-                let shown = Shown::from(case.vehicle.both(&x, &u, gust).1);
+                let shown = Shown::from(case.vehicle.derivatives_and_outputs(&x, &u, gust).1);
                 [&shown.angles[..], &shown.load_factors].concat()
             };
             let dual = |i: usize| Dual::<1> { re: known[i], eps: [f64::from(i == k)] };
             let (x, u) = (std::array::from_fn(dual), std::array::from_fn(|i| dual(STATES + i)));
             let gust = std::array::from_fn(|i| dual(STATES + 2 + i));
-            let outputs = case.vehicle.both(&x, &u, gust).1;
+            let outputs = case.vehicle.derivatives_and_outputs(&x, &u, gust).1;
             let re = Shown::from(outputs.map(Dual::value));
             let eps = Shown::from(outputs.map(|dual| dual.eps[0]));
             let [re, eps] =

@@ -1,7 +1,7 @@
 //! Mass books: what is where, from the data files alone.
 
 use ahv::data::{AeroData, TankData, VehicleData};
-use ahv::vehicle::Build;
+use ahv::vehicle::VehicleOptions;
 use std::f64::consts::PI;
 
 /// What is asked of a vehicle.
@@ -19,15 +19,15 @@ pub struct Wanted {
     pub pitch_rate: f64,
 }
 
-impl From<&Build> for Wanted {
-    fn from(build: &Build) -> Self {
+impl From<&VehicleOptions> for Wanted {
+    fn from(options: &VehicleOptions) -> Self {
         Self {
-            fuel_fraction: build.fuel_fraction,
-            slosh_frequency: build.slosh_frequency,
-            slosh_damping: build.slosh_damping,
-            inertia_factor: build.factors.inertia,
-            shift_m: build.factors.mass_centre_shift_m,
-            pitch_rate: build.factors.pitch_rate,
+            fuel_fraction: options.fuel_fraction,
+            slosh_frequency: options.slosh_frequency,
+            slosh_damping: options.slosh_damping,
+            inertia_factor: options.factors.inertia,
+            shift_m: options.factors.mass_centre_shift_m,
+            pitch_rate: options.factors.pitch_rate,
         }
     }
 }

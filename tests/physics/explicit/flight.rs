@@ -61,7 +61,7 @@ pub struct Explicit<'a> {
 }
 
 /// x' = A x + B u, and y = C x of V with gamma of the mass centre of all, or with gamma of a station.
-pub struct Linear {
+pub struct LinearModel {
     a: DMatrix<f64>,
     b: DMatrix<f64>,
     c: DMatrix<f64>,
@@ -248,10 +248,10 @@ impl<'a> Explicit<'a> {
         }
     }
 
-    pub fn linear(&self, station: Option<f64>) -> Linear {
+    pub fn linear(&self, station: Option<f64>) -> LinearModel {
         let state = self.state(real(self.steady.alpha));
         let control = self.steady.control.map(real);
-        let mut linear = Linear {
+        let mut linear = LinearModel {
             a: DMatrix::zeros(STATES, STATES),
             b: DMatrix::zeros(STATES, 2),
             c: DMatrix::zeros(2, STATES),
@@ -277,7 +277,7 @@ impl<'a> Explicit<'a> {
     }
 }
 
-impl Linear {
+impl LinearModel {
     pub fn poles(&self) -> Vec<Complex<f64>> {
         eigenvalues(self.a.clone())
     }

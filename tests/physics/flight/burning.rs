@@ -5,7 +5,7 @@ use ahv::data::AeroSet;
 use ahv::error::Error;
 use ahv::flight::Flight;
 use ahv::structure::MODES;
-use ahv::vehicle::{Burn, Configuration, FUEL, GUSTS};
+use ahv::vehicle::{Configuration, FUEL, FuelTable, GUSTS};
 
 /// Fuel burnt against the integral of its flow, over what was burnt.
 const BOOKS: f64 = 1e-9;
@@ -14,7 +14,7 @@ const EMPTY_AT: f64 = 1e-4;
 
 fn burning(edit: impl FnOnce(&mut ahv::flight::Parameters)) -> Flight {
     crate::model::flight_with(|parameters| {
-        parameters.build.fuel_burn = true;
+        parameters.options.fuel_burn = true;
         edit(parameters);
     })
 }
@@ -32,7 +32,7 @@ fn verif_the_specific_impulse_is_a_scramjets_or_stands_in_the_errata() {
         (AeroSet::Parker2007, 1709.0, 0.003),
         (AeroSet::ShockExpansion, 2881.0, 0.003),
     ] {
-        let mut flight = burning(|p| p.build.aero = set);
+        let mut flight = burning(|p| p.options.aero = set);
         let rate = fuel_rate(&mut flight);
         let gravity = flight.vehicle().atmosphere.sea_level_gravity();
         let impulse = flight.evaluate().unwrap().outputs.loads.thrust / (-rate * gravity);
@@ -47,7 +47,7 @@ fn verif_the_books_of_mass_balance() {
     // Boole's rule over steps that the fastest mode passes through slowly.
     let (step, steps) = (1e-3, 200);
     for configuration in CONFIGURATIONS {
-        let mut flight = burning(|p| p.build.configuration = configuration);
+        let mut flight = burning(|p| p.options.configuration = configuration);
         let start = flight.state()[FUEL];
         flight.set_input(0, 0.002);
         flight.set_input(1, 0.3);
@@ -65,7 +65,7 @@ fn verif_the_books_of_mass_balance() {
         assert!(burnt > 0.5, "{burnt} kg/m");
         assert_close("fuel", burnt, integral, BOOKS);
         let vehicle = flight.vehicle();
-        let left = vehicle.burn.as_ref().unwrap().airframe(flight.state()[FUEL]).mass;
+        let left = vehicle.fuel_table.as_ref().unwrap().airframe(flight.state()[FUEL]).mass;
         assert_close("mass", vehicle.airframe.mass - left, burnt, BOOKS);
     }
 }
@@ -89,8 +89,8 @@ fn verif_without_burning_no_fuel_goes_and_an_idle_engine_takes_none() {
 fn verif_the_flight_ends_when_the_fuel_does() {
     for configuration in CONFIGURATIONS {
         let mut flight = burning(|p| {
-            p.build.configuration = configuration;
-            p.build.fuel_fraction = 1e-4;
+            p.options.configuration = configuration;
+            p.options.fuel_fraction = 1e-4;
         });
         let expected = flight.state()[FUEL] / -fuel_rate(&mut flight);
         let mut end = 0.0;
@@ -110,8 +110,8 @@ fn verif_the_flight_ends_when_the_fuel_does() {
         flight.check().unwrap();
         // Empty from the start: not a step.
         let mut empty = burning(|p| {
-            p.build.configuration = configuration;
-            p.build.fuel_fraction = 0.0;
+            p.options.configuration = configuration;
+            p.options.fuel_fraction = 0.0;
         });
         assert!(matches!(empty.advance(0.01), Err(Error::Fuel { time_s: 0.0 })));
         // A state that an integrator from outside has tried.
@@ -127,7 +127,7 @@ fn verif_what_the_equations_of_burning_leave_out_is_small() {
     // Errata, 22. All at full thrust of the envelope: phi 1.5 burns some six times the trim's fuel.
     let flight = burning(|_| ());
     let vehicle = flight.vehicle();
-    let burn: &Burn = vehicle.burn.as_ref().unwrap();
+    let burn: &FuelTable = vehicle.fuel_table.as_ref().unwrap();
     let x = flight.trim().state;
     let rate = -vehicle.derivatives(&x, &[0.2, 1.5], [0.0; GUSTS])[FUEL];
     assert!(rate < 10.0, "{rate} kg/(m s)");

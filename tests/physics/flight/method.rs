@@ -2,11 +2,11 @@
 //! DOP853.
 
 use crate::model::{AERO_SETS, CONFIGURATIONS, builds, data, distance, flight, flight_with, setup};
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::Trim;
 use ahv::flight::method;
 use ahv::solve::{
-    Arrival, Attempt, DOP853, Decoupling, Exponential, Integrator, Method, System, Trial,
+    Attempt, DOP853, Decoupling, Exponential, Integrator, Method, Outcome, System, Trial,
 };
 use ahv::structure::MODES;
 use ahv::vehicle::{Configuration, Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
@@ -17,10 +17,10 @@ const ROUNDING: f64 = 1e-9;
 
 #[test]
 fn verif_the_coordinates_decouple_every_vehicle() {
-    for build in builds() {
-        let flight = flight_with(|parameters| parameters.build = build);
+    for options in builds() {
+        let flight = flight_with(|parameters| parameters.options = options);
         let (vehicle, trim) = (flight.vehicle(), flight.trim());
-        let jacobian = Linear::new(vehicle, &trim.state, &trim.control).a;
+        let jacobian = LinearModel::new(vehicle, &trim.state, &trim.control).a;
         let slow = RIGID - 2;
         let decoupling =
             Decoupling::<STATES, { RIGID - 2 }, { 2 + 2 * MODES }>::new(&jacobian, &NOMINAL);
@@ -30,15 +30,15 @@ fn verif_the_coordinates_decouple_every_vehicle() {
             let there = decoupling.to_coordinates(&x);
             let mut pair = [0.0; STATES];
             pair[j - slow] = NOMINAL[j];
-            assert_ne!(there, pair, "{build:?}: the coordinates are not pairs of states");
+            assert_ne!(there, pair, "{options:?}: the coordinates are not pairs of states");
             let back = decoupling.to_states(&there);
             let moved = decoupling.to_states(&decoupling.blocks.times(&there));
             for i in 0..vehicle.states() {
-                assert!((back[i] - x[i]).abs() < ROUNDING * NOMINAL[i], "{build:?}: {j} to {i}");
+                assert!((back[i] - x[i]).abs() < ROUNDING * NOMINAL[i], "{options:?}: {j} to {i}");
                 let expected = jacobian[(i, j)] * NOMINAL[j];
                 // A rate of 100 rad/s is usual.
                 let off = (moved[i] - expected).abs() / (100.0 * NOMINAL[i]);
-                assert!(off < ROUNDING, "{build:?}: L[{i}, {j}] is {}, not {expected}", moved[i]);
+                assert!(off < ROUNDING, "{options:?}: L[{i}, {j}] is {}, not {expected}", moved[i]);
             }
         }
     }
@@ -66,17 +66,17 @@ fn flown(
     start: &State,
     tolerance: f64,
     steps: u32,
-) -> (State, Arrival) {
+) -> (State, Outcome) {
     let (mut integrator, mut x) = (Integrator::new(tolerance, 1e-3), *start);
     let mut slope = None;
     for step in 0..steps {
         let ends = [step, step + 1].map(|i| FLIGHT_S * f64::from(i) / f64::from(steps));
-        let arrival = integrator.advance(method, system, &mut x, ends, &mut slope);
-        if arrival != Arrival::Complete {
-            return (x, arrival);
+        let outcome = integrator.advance(method, system, &mut x, ends, &mut slope);
+        if outcome != Outcome::Complete {
+            return (x, outcome);
         }
     }
-    (x, Arrival::Complete)
+    (x, Outcome::Complete)
 }
 
 /// The method in the registers that every processor has.
@@ -85,8 +85,8 @@ struct Portable<M>(M);
 impl<const N: usize, const SLOW: usize, const FAST: usize> Method<N>
     for Portable<Exponential<N, SLOW, FAST>>
 {
-    fn longest(&self) -> f64 {
-        self.0.longest()
+    fn max_step(&self) -> f64 {
+        self.0.max_step()
     }
     fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
         self.0.portable(attempt)
@@ -112,11 +112,11 @@ proptest! {
         digits in 5..10_i32,
     ) {
         let mut parameters = setup(&[]).parameters;
-        parameters.build.configuration = CONFIGURATIONS[configuration];
-        parameters.build.fuel_fraction = fuel;
-        parameters.build.fuel_burn = burn;
-        let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
-        let trim = ahv::dynamics::trim::trim(&vehicle, &parameters.build.condition).unwrap();
+        parameters.options.configuration = CONFIGURATIONS[configuration];
+        parameters.options.fuel_fraction = fuel;
+        parameters.options.fuel_burn = burn;
+        let vehicle = Vehicle::new(&data(), &parameters.options).unwrap();
+        let trim = ahv::dynamics::trim::trim(&vehicle, &parameters.options.condition).unwrap();
         let mut start = trim.state;
         for i in RIGID - 2..vehicle.states() {
             start[i] += disturbance[i + 2 - RIGID] * NOMINAL[i];
@@ -131,7 +131,7 @@ proptest! {
         prop_assert_eq!(ours.0, portable.0, "wider registers change no bit");
         let exact = flown(&mut &DOP853, &system, &start, 1e-12, steps);
         // Those that leave do so at slightly different instants.
-        prop_assume!(ours.1 == Arrival::Complete && exact.1 == Arrival::Complete);
+        prop_assume!(ours.1 == Outcome::Complete && exact.1 == Outcome::Complete);
         let off = distance(&ours.0, &exact.0);
         prop_assert!(off < GROWTH * tolerance, "off by {} tolerances", off / tolerance);
     }
@@ -163,9 +163,9 @@ fn verif_what_rests_arrives_at_once_however_long_the_step() {
     for altitude in (0..30).map(|i| 25_000.0 + 100.0 * f64::from(i)) {
         for aero in AERO_SETS {
             let mut flight = flight_with(|parameters| {
-                parameters.build.configuration = Configuration::Rigid;
-                parameters.build.aero = aero;
-                parameters.build.condition.altitude = altitude;
+                parameters.options.configuration = Configuration::Rigid;
+                parameters.options.aero = aero;
+                parameters.options.condition.altitude = altitude;
             });
             let start = *flight.state();
             resting += usize::from(flight.advance(1e300).is_ok() && *flight.state() == start);
@@ -178,9 +178,9 @@ fn verif_what_rests_arrives_at_once_however_long_the_step() {
 fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
     // The lapse rate jumps at 32 km of geopotential altitude, 32.16 km above the ground.
     let mut parameters = setup(&[]).parameters;
-    let vehicle = Vehicle::new(&data(), &parameters.build).unwrap();
-    parameters.build.condition.altitude = 32_150.0;
-    let mut start = parameters.build.condition.start(&vehicle.atmosphere);
+    let vehicle = Vehicle::new(&data(), &parameters.options).unwrap();
+    parameters.options.condition.altitude = 32_150.0;
+    let mut start = parameters.options.condition.start(&vehicle.atmosphere);
     start[2] = 0.03;
     start[3] = 0.02;
     let trim = Trim { state: start, control: [0.1, 0.3] };

@@ -2,7 +2,7 @@
 //! against closed forms and DOP853.
 
 use ahv::solve::{
-    Arrival, Attempt, Blocks, DOP853, Decoupling, Exponential, Integrator, Method, System, Trial,
+    Attempt, Blocks, DOP853, Decoupling, Exponential, Integrator, Method, Outcome, System, Trial,
     phis,
 };
 use nalgebra::{DMatrix, Matrix4, SMatrix, SVector, Vector4};
@@ -51,7 +51,8 @@ fn verif_the_functions_are_those_of_the_exponential() {
             let l = dense(&blocks);
             // phi_k = z phi_(k+1) + 1/k!, down to the exponential.
             let functions = phis(&blocks, t).map(|f| {
-                Matrix4::from_diagonal(&f.one.into()) + Matrix4::from_diagonal(&f.linear.into()) * l
+                Matrix4::from_diagonal(&f.identity.into())
+                    + Matrix4::from_diagonal(&f.linear.into()) * l
             });
             let mut below = series(l * t);
             let mut factorial = 1.0;
@@ -221,8 +222,8 @@ impl System<6> for Chain {
 /// The state of the chain after 1 s.
 fn chained(method: &mut impl Method<6>, system: &Chain) -> [f64; 6] {
     let (mut integrator, mut x) = (Integrator::new(1e-10, 1e-3), [0.0, 1.0, 0.0, 0.5, 3.0, 0.0]);
-    let arrival = integrator.advance(method, system, &mut x, [0.0, 1.0], &mut None);
-    assert_eq!(arrival, Arrival::Complete);
+    let outcome = integrator.advance(method, system, &mut x, [0.0, 1.0], &mut None);
+    assert_eq!(outcome, Outcome::Complete);
     x
 }
 

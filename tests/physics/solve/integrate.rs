@@ -2,7 +2,7 @@
 
 use crate::model::{CONFIGURATIONS, distance, flight};
 use ahv::flight::Flight;
-use ahv::solve::{Arrival, Attempt, DOP853, Integrator, Method, System, Trial};
+use ahv::solve::{Attempt, DOP853, Integrator, Method, Outcome, System, Trial};
 use ahv::vehicle::State;
 use proptest::prelude::*;
 use std::cell::Cell;
@@ -25,7 +25,7 @@ impl System<2> for Oscillator {
     fn nominal(&self) -> &[f64; 2] {
         &[1.0, 1.0]
     }
-    fn steady(&self) -> bool {
+    fn is_autonomous(&self) -> bool {
         true
     }
 }
@@ -52,8 +52,8 @@ impl System<1> for Clock {
 fn swing(system: &Oscillator, tolerance: f64, ends: &[f64]) -> [f64; 2] {
     let (mut integrator, mut x, mut t) = (Integrator::new(tolerance, 1e-3), [1.0, 0.0], 0.0);
     for &end in ends {
-        let arrival = integrator.advance(&mut &DOP853, system, &mut x, [t, end], &mut None);
-        assert_eq!(arrival, Arrival::Complete);
+        let outcome = integrator.advance(&mut &DOP853, system, &mut x, [t, end], &mut None);
+        assert_eq!(outcome, Outcome::Complete);
         t = end;
     }
     x
@@ -132,7 +132,7 @@ fn verif_known_slopes_are_not_computed_again() {
 struct Short;
 
 impl<const N: usize> Method<N> for Short {
-    fn longest(&self) -> f64 {
+    fn max_step(&self) -> f64 {
         1.0
     }
     fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N> {
@@ -145,8 +145,8 @@ fn verif_what_rests_arrives_at_once_however_long_the_interval() {
     let mut integrator = Integrator::new(1e-8, 1e-3);
     let (mut rest, ends) = ([0.0; 2], [0.0, 1e6]);
     let system = oscillator(3.0, -1.0);
-    let arrival = integrator.advance(&mut Short, &system, &mut rest, ends, &mut None);
-    assert_eq!((arrival, rest), (Arrival::Complete, [0.0; 2]));
+    let outcome = integrator.advance(&mut Short, &system, &mut rest, ends, &mut None);
+    assert_eq!((outcome, rest), (Outcome::Complete, [0.0; 2]));
     assert!(system.calls.get() < 100, "{}", system.calls.get());
 
     /// x' = t - 20 after 20 s: at rest in the beginning only.
@@ -173,8 +173,8 @@ fn verif_leaving_is_located() {
     for proposal in [1e-3, 0.3, 10.0] {
         let system = oscillator(1.0, 0.5);
         let (mut integrator, mut x) = (Integrator::new(1e-10, proposal), [1.0, 0.0]);
-        let arrival = integrator.advance(&mut &DOP853, &system, &mut x, [0.0, 5.0], &mut None);
-        let Arrival::Left(t) = arrival else { panic!("{arrival:?}") };
+        let outcome = integrator.advance(&mut &DOP853, &system, &mut x, [0.0, 5.0], &mut None);
+        let Outcome::Invalid(t) = outcome else { panic!("{outcome:?}") };
         assert!((t - std::f64::consts::FRAC_PI_3).abs() < 2e-9, "left at {t}");
         assert!(x[0] >= 0.5);
     }
@@ -198,8 +198,8 @@ fn verif_a_model_that_ceases_to_hold_at_the_very_end_is_left_before_it() {
     // Steps whose sum is a second without rounding.
     for proposal in [0.25, 1.0, 10.0] {
         let (mut integrator, mut x) = (Integrator::new(1e-8, proposal), [0.0]);
-        let arrival = integrator.advance(&mut &DOP853, &Closing, &mut x, [0.0, 1.0], &mut None);
-        let Arrival::Left(t) = arrival else { panic!("{proposal}: {arrival:?}") };
+        let outcome = integrator.advance(&mut &DOP853, &Closing, &mut x, [0.0, 1.0], &mut None);
+        let Outcome::Invalid(t) = outcome else { panic!("{proposal}: {outcome:?}") };
         assert!(t < 1.0 && 1.0 - t < 2e-9 && (x[0] - t).abs() < 1e-14, "{proposal}: {t}, {x:?}");
     }
 }
@@ -207,8 +207,8 @@ fn verif_a_model_that_ceases_to_hold_at_the_very_end_is_left_before_it() {
 #[test]
 fn verif_an_interval_shorter_than_the_shortest_step_is_one_step() {
     let (mut integrator, mut x) = (Integrator::new(1e-8, 1e-3), [0.0]);
-    let arrival = integrator.advance(&mut &DOP853, &Clock, &mut x, [0.0, 1e-14], &mut None);
-    assert_eq!(arrival, Arrival::Complete);
+    let outcome = integrator.advance(&mut &DOP853, &Clock, &mut x, [0.0, 1e-14], &mut None);
+    assert_eq!(outcome, Outcome::Complete);
     assert!((x[0] - 1e-14).abs() < 1e-28, "{x:?}");
 }
 
@@ -227,8 +227,8 @@ fn verif_an_infinite_right_hand_side_is_reported() {
         }
     }
     let (mut integrator, mut x) = (Integrator::new(1e-8, 0.1), [0.0]);
-    let arrival = integrator.advance(&mut &DOP853, &Wall, &mut x, [0.0, 1.0], &mut None);
-    let Arrival::Stuck(t) = arrival else { panic!("{arrival:?}") };
+    let outcome = integrator.advance(&mut &DOP853, &Wall, &mut x, [0.0, 1.0], &mut None);
+    let Outcome::StepTooSmall(t) = outcome else { panic!("{outcome:?}") };
     assert!((t - 0.25).abs() < 1e-6 && (x[0] - t).abs() < 1e-9);
 }
 
@@ -248,8 +248,8 @@ fn verif_an_interval_without_end_is_given_back_at_the_instant_reached() {
         }
     }
     let (mut integrator, mut x) = (Integrator::new(1e-5, 0.1), [1.0, 0.0]);
-    let arrival = integrator.advance(&mut &DOP853, &Swing, &mut x, [0.0, 1e300], &mut None);
-    let Arrival::Long(t) = arrival else { panic!("{arrival:?}") };
+    let outcome = integrator.advance(&mut &DOP853, &Swing, &mut x, [0.0, 1e300], &mut None);
+    let Outcome::TooManySteps(t) = outcome else { panic!("{outcome:?}") };
     // More than a tenth of a radian a step, and still on its circle but for the tolerance.
     assert!(t > 1e5 && x[0].hypot(x[1]) < 1.5, "{t}, {x:?}");
 }

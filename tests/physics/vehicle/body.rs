@@ -2,9 +2,9 @@
 
 use crate::explicit::air::speed_and_gravity;
 use crate::explicit::books::Books;
-use crate::model::{AERO_SETS, CONFIGURATIONS, assert_close, build, data};
+use crate::model::{AERO_SETS, CONFIGURATIONS, assert_close, data, options};
 use ahv::error::Error;
-use ahv::vehicle::{Build, Configuration, Factors, Vehicle};
+use ahv::vehicle::{Configuration, Factors, Vehicle, VehicleOptions};
 
 /// Sums over 500 elements; the least inertia is a difference of them.
 const ROUNDING: f64 = 1e-9;
@@ -19,7 +19,12 @@ fn verif_an_inertia_that_leaves_the_body_none_is_refused_with_its_numbers() {
             for mass_centre_shift_m in [0.0, 0.5, -2.0] {
                 let with = |inertia: f64| {
                     let factors = Factors { mass_centre_shift_m, inertia, ..Factors::default() };
-                    Build { aero, fuel_fraction, factors, ..build(Configuration::SloshBeam) }
+                    VehicleOptions {
+                        aero,
+                        fuel_fraction,
+                        factors,
+                        ..options(Configuration::SloshBeam)
+                    }
                 };
                 let plain = with(1.0);
                 let [_, gravity] = speed_and_gravity(&data.earth, &plain.condition);
@@ -57,7 +62,8 @@ fn verif_no_configuration_flies_without_inertia() {
     for configuration in CONFIGURATIONS {
         for inertia in [0.0, -1.0] {
             let factors = Factors { inertia, ..Factors::default() };
-            let refused = Vehicle::new(&data, &Build { factors, ..build(configuration) });
+            let refused =
+                Vehicle::new(&data, &VehicleOptions { factors, ..options(configuration) });
             assert!(matches!(refused, Err(Error::Inertia { .. })), "{configuration:?}");
         }
     }

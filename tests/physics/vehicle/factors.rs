@@ -1,13 +1,13 @@
 //! Each factor against the same change made in the text of a data file.
 
 use super::edited::{SETS, Texts, add, edit};
-use crate::model::{CONFIGURATIONS, build, data, setup};
+use crate::model::{CONFIGURATIONS, data, options, setup};
 use ahv::data::AeroSet;
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Setup;
-use ahv::vehicle::{Build, Configuration, Factors, Vehicle};
+use ahv::vehicle::{Configuration, Factors, Vehicle, VehicleOptions};
 use fmi_model::table::find;
 
 /// The mass centre moved twice, or once by the sum: a rounding of metres, which trim and modes multiply.
@@ -95,15 +95,15 @@ fn multiplied((name, _, changes): &Row, factor: f64) -> Texts {
 }
 
 /// All that a vehicle flies by: its numbers, trim and linear model at the condition, and burn.
-fn numbers(vehicle: &Vehicle, build: &Build) -> Vec<f64> {
+fn numbers(vehicle: &Vehicle, options: &VehicleOptions) -> Vec<f64> {
     let mut numbers = vehicle.airframe.to_row().to_vec();
     numbers.extend(vehicle.omega);
-    let steady = trim(vehicle, &build.condition).unwrap_or_else(|error| panic!("{error}"));
+    let steady = trim(vehicle, &options.condition).unwrap_or_else(|error| panic!("{error}"));
     numbers.extend(steady.state);
     numbers.extend(steady.control);
-    let Linear { a, b, .. } = Linear::new(vehicle, &steady.state, &steady.control);
+    let LinearModel { a, b, .. } = LinearModel::new(vehicle, &steady.state, &steady.control);
     numbers.extend(a.iter().chain(b.iter()));
-    if let Some(burn) = &vehicle.burn {
+    if let Some(burn) = &vehicle.fuel_table {
         for part in [1.0, 0.61, 0.2, 0.003] {
             numbers.extend(burn.airframe(vehicle.fuel * part).to_row());
         }
@@ -115,17 +115,17 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
-fn assert_alike(row: &Row, factor: f64, build: &Build) {
+fn assert_alike(row: &Row, factor: f64, options: &VehicleOptions) {
     let (plain, texts) = (data(), multiplied(row, factor).data());
     let mut factors = Factors::default();
     *row.1(&mut factors) = factor;
-    let asked = Vehicle::new(&plain, &Build { factors, ..*build }).unwrap();
-    let written = Vehicle::new(&texts, build).unwrap();
-    let [asked, written] = [asked, written].map(|vehicle| numbers(&vehicle, build));
-    assert_eq!(bits(&asked), bits(&written), "{} = {factor}: {build:?}", row.0);
+    let asked = Vehicle::new(&plain, &VehicleOptions { factors, ..*options }).unwrap();
+    let written = Vehicle::new(&texts, options).unwrap();
+    let [asked, written] = [asked, written].map(|vehicle| numbers(&vehicle, options));
+    assert_eq!(bits(&asked), bits(&written), "{} = {factor}: {options:?}", row.0);
     // What does not bend has no use for the last three.
-    if build.configuration != Configuration::Rigid {
-        let without = numbers(&Vehicle::new(&plain, build).unwrap(), build);
+    if options.configuration != Configuration::Rigid {
+        let without = numbers(&Vehicle::new(&plain, options).unwrap(), options);
         assert_ne!(bits(&asked), bits(&without), "{} does nothing", row.0);
     }
 }
@@ -136,7 +136,7 @@ fn verif_a_factor_is_the_same_change_in_the_file_bit_for_bit() {
         for configuration in CONFIGURATIONS {
             for aero in SETS {
                 for factor in [1.03, 0.96] {
-                    assert_alike(row, factor, &Build { aero, ..build(configuration) });
+                    assert_alike(row, factor, &VehicleOptions { aero, ..options(configuration) });
                 }
             }
         }
@@ -145,7 +145,7 @@ fn verif_a_factor_is_the_same_change_in_the_file_bit_for_bit() {
 
 #[test]
 fn verif_a_factor_is_the_same_change_in_the_file_while_fuel_burns() {
-    let burning = Build { fuel_burn: true, ..build(Configuration::SloshBeam) };
+    let burning = VehicleOptions { fuel_burn: true, ..options(Configuration::SloshBeam) };
     for row in &ROWS {
         assert_alike(row, 1.03, &burning);
     }
@@ -173,22 +173,22 @@ fn verif_a_shift_of_the_mass_centre_is_the_same_shift_in_the_file() {
             if fuel_burn && (aero, configuration) != (AeroSet::Xu2015, Configuration::SloshBeam) {
                 continue;
             }
-            let build = Build { aero, fuel_burn, ..build(configuration) };
-            let asked = Vehicle::new(&plain, &Build { factors, ..build }).unwrap();
-            let without = Vehicle::new(&plain, &build).unwrap();
+            let options = VehicleOptions { aero, fuel_burn, ..options(configuration) };
+            let asked = Vehicle::new(&plain, &VehicleOptions { factors, ..options }).unwrap();
+            let without = Vehicle::new(&plain, &options).unwrap();
             let moved = asked.airframe.mass_centre - without.airframe.mass_centre;
             assert!((moved - SHIFT).abs() < 1e-12, "{moved}");
             if configuration == Configuration::Rigid {
                 // The file's is that of the flexible ones.
-                let written = Vehicle::new(&texts, &build).unwrap();
+                let written = Vehicle::new(&texts, &options).unwrap();
                 assert_eq!(written.airframe.mass_centre, without.airframe.mass_centre);
                 continue;
             }
-            let written = Vehicle::new(&texts, &build).unwrap();
-            let [asked, written] = [asked, written].map(|vehicle| numbers(&vehicle, &build));
+            let written = Vehicle::new(&texts, &options).unwrap();
+            let [asked, written] = [asked, written].map(|vehicle| numbers(&vehicle, &options));
             for (i, (asked, written)) in asked.into_iter().zip(written).enumerate() {
                 let off = (asked - written).abs() / written.abs().max(1.0);
-                assert!(off < ROUNDING, "{build:?}, number {i}: {asked}, {written}, {off:.1e}");
+                assert!(off < ROUNDING, "{options:?}, number {i}: {asked}, {written}, {off:.1e}");
             }
         }
     }
@@ -203,8 +203,8 @@ fn verif_factors_without_a_trim_are_refused_with_the_limit() {
             ([("thrust_factor", 0.1), ("drag_factor", 2.0)], "phi = "),
         ] {
             let mut setup = setup(&settings);
-            setup.parameters.build.configuration = configuration;
-            setup.parameters.build.aero = AeroSet::Parker2007;
+            setup.parameters.options.configuration = configuration;
+            setup.parameters.options.aero = AeroSet::Parker2007;
             let error = setup.fly().unwrap_err();
             assert!(matches!(error, Error::Trim { .. }), "{settings:?}: {error}");
             let text = error.to_string();
@@ -212,8 +212,8 @@ fn verif_factors_without_a_trim_are_refused_with_the_limit() {
         }
         // The first-principles engine chokes before it needs more fuel than it can get.
         let mut setup = setup(&[("thrust_factor", 0.1)]);
-        setup.parameters.build.configuration = configuration;
-        setup.parameters.build.aero = AeroSet::ShockExpansion;
+        setup.parameters.options.configuration = configuration;
+        setup.parameters.options.aero = AeroSet::ShockExpansion;
         let error = setup.fly().unwrap_err();
         assert!(matches!(error, Error::Value { .. }), "{error}");
         assert!(error.to_string().contains("it makes choking_margin -"), "{error}");
@@ -260,11 +260,11 @@ fn assert_refused(name: &str, value: f64) {
 #[test]
 fn verif_without_factors_the_files_are_flown_bit_for_bit() {
     for configuration in CONFIGURATIONS {
-        let build = build(configuration);
-        assert_eq!(build.factors, Factors::default());
+        let options = options(configuration);
+        assert_eq!(options.factors, Factors::default());
         let read = Texts::new().data();
         let [one, other] =
-            [&data(), &read].map(|data| numbers(&Vehicle::new(data, &build).unwrap(), &build));
+            [&data(), &read].map(|data| numbers(&Vehicle::new(data, &options).unwrap(), &options));
         assert_eq!(bits(&one), bits(&other));
     }
 }

@@ -1,14 +1,14 @@
 //! The vehicle between the fuel levels at which its modes are solved.
 
-use crate::model::{AERO_SETS, CONFIGURATIONS, assert_close, build, data, deviation};
-use ahv::air::curve_fits::{DRAG, FORCE, INCIDENCE, INFLOW, LIFT, MOMENT};
-use ahv::dynamics::linear::Linear;
+use crate::model::{AERO_SETS, CONFIGURATIONS, assert_close, data, deviation, options};
+use ahv::air::curve_fits::{DRAG, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT};
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::solve::{Dual, Scalar};
 use ahv::structure::MODES;
 use ahv::vehicle::{
-    Airframe, Body, Build, COEFFICIENTS, Chosen, Configuration, FUEL, Factors, GUSTS, NOMINAL,
-    RIGID, STATES, Vehicle,
+    Airframe, Body, COEFFICIENTS, Configuration, FUEL, Factors, GUSTS, NOMINAL, RIGID, STATES,
+    Vehicle, VehicleDefinition, VehicleOptions,
 };
 use nalgebra::{Matrix5, SymmetricEigen};
 
@@ -34,7 +34,7 @@ fn kinds() -> Vec<Vec<usize>> {
     let mut kinds = vec![vec![mass], vec![inertia], vec![mass_centre]];
     for rows in [LIFT..LIFT + 1, DRAG..DRAG + 1, MOMENT..MOMENT + 1, INFLOW..INFLOW + 1]
         .into_iter()
-        .chain([FORCE..FORCE + MODES, INCIDENCE..INCIDENCE + 1])
+        .chain([MODAL_FORCE..MODAL_FORCE + MODES, INCIDENCE..INCIDENCE + 1])
     {
         let per = elastic.per.as_flattened().iter();
         kinds.push(per.flat_map(|per| per[rows.clone()].to_vec()).collect());
@@ -59,21 +59,21 @@ fn places() -> Airframe {
 
 /// Different enough: full and half full, one mode beside a bending frequency, no slosh at all, with the
 /// terms in the pitch rate.
-fn builds() -> Vec<Build> {
-    let beam = |fuel_fraction, slosh_frequency| Build {
+fn builds() -> Vec<VehicleOptions> {
+    let beam = |fuel_fraction, slosh_frequency| VehicleOptions {
         fuel_burn: true,
         fuel_fraction,
         slosh_frequency,
-        ..build(Configuration::SloshBeam)
+        ..options(Configuration::SloshBeam)
     };
-    let even = Build { fuel_burn: true, ..build(Configuration::EvenMassBeam) };
+    let even = VehicleOptions { fuel_burn: true, ..options(Configuration::EvenMassBeam) };
     let factors = Factors { pitch_rate: 1.0, mass_centre_shift_m: -0.5, ..Factors::default() };
-    let pitching = Build { factors, ..beam(1.0, 0.0) };
+    let pitching = VehicleOptions { factors, ..beam(1.0, 0.0) };
     vec![beam(1.0, 0.0), beam(0.5, 0.0), beam(1.0, 20.0), beam(0.8, 50.0), even, pitching]
 }
 
-fn fractions(build: &Build) -> impl Iterator<Item = f64> {
-    (0..=SAMPLES).map(|i| build.fuel_fraction * (1.0 - i as f64 / SAMPLES as f64))
+fn fractions(options: &VehicleOptions) -> impl Iterator<Item = f64> {
+    (0..=SAMPLES).map(|i| options.fuel_fraction * (1.0 - i as f64 / SAMPLES as f64))
 }
 
 #[test]
@@ -81,15 +81,15 @@ fn verif_between_the_levels_every_coefficient_is_what_a_direct_solution_gives() 
     // The direct solution is in the basis nearest to the start, which knows nothing of the levels:
     // agreement also shows that this basis has no jump, where the slosh frequencies cross included.
     let data = data();
-    for build in builds() {
-        let vehicle = Vehicle::new(&data, &build).unwrap();
-        let chosen = Chosen::new(&data, &build);
-        let (burn, start) = (vehicle.burn.as_ref().unwrap(), Body::new(&chosen).unwrap());
-        for fuel_fraction in fractions(&build) {
-            let level = chosen.at(fuel_fraction);
-            let direct = Body::new(&level).unwrap().turned(&level, &start).unwrap();
+    for options in builds() {
+        let vehicle = Vehicle::new(&data, &options).unwrap();
+        let definition = VehicleDefinition::new(&data, &options);
+        let (burn, start) = (vehicle.fuel_table.as_ref().unwrap(), Body::new(&definition).unwrap());
+        for fuel_fraction in fractions(&options) {
+            let level = definition.at(fuel_fraction);
+            let direct = Body::new(&level).unwrap().aligned_to(&level, &start).unwrap();
             let direct = direct.airframe(&level).unwrap().to_row();
-            let fuel = vehicle.fuel * fuel_fraction / build.fuel_fraction;
+            let fuel = vehicle.fuel * fuel_fraction / options.fuel_fraction;
             let between = burn.airframe(fuel).to_row();
             for kind in kinds() {
                 let size = kind.iter().fold(NOTHING, |a: f64, i| a.max(direct[*i].abs()));
@@ -97,7 +97,7 @@ fn verif_between_the_levels_every_coefficient_is_what_a_direct_solution_gives() 
                     let error = (between[i] - direct[i]).abs();
                     assert!(
                         error <= INTERPOLATED * size,
-                        "{build:?} at {fuel_fraction}, coefficient {i}: {:.1e}",
+                        "{options:?} at {fuel_fraction}, coefficient {i}: {:.1e}",
                         error / size
                     );
                 }
@@ -110,12 +110,12 @@ fn verif_between_the_levels_every_coefficient_is_what_a_direct_solution_gives() 
 fn verif_the_start_is_the_vehicle_without_burning() {
     let data = data();
     for configuration in CONFIGURATIONS {
-        let still = Build { fuel_fraction: 0.7, ..build(configuration) };
-        let burning = Vehicle::new(&data, &Build { fuel_burn: true, ..still }).unwrap();
+        let still = VehicleOptions { fuel_fraction: 0.7, ..options(configuration) };
+        let burning = Vehicle::new(&data, &VehicleOptions { fuel_burn: true, ..still }).unwrap();
         let still = Vehicle::new(&data, &still).unwrap();
         assert_eq!(burning.fuel, still.fuel);
         let [one, other] = [
-            burning.burn.as_ref().unwrap().airframe(burning.fuel).to_row(),
+            burning.fuel_table.as_ref().unwrap().airframe(burning.fuel).to_row(),
             still.airframe.to_row(),
         ];
         for i in kinds().concat() {
@@ -128,13 +128,14 @@ fn verif_the_start_is_the_vehicle_without_burning() {
 #[test]
 fn verif_frequencies_go_through_the_crossing() {
     let data = data();
-    for build in builds() {
-        let vehicle = Vehicle::new(&data, &build).unwrap();
-        for fuel_fraction in fractions(&build) {
-            let level = Vehicle::new(&data, &Build { fuel_fraction, fuel_burn: false, ..build });
+    for options in builds() {
+        let vehicle = Vehicle::new(&data, &options).unwrap();
+        for fuel_fraction in fractions(&options) {
+            let level =
+                Vehicle::new(&data, &VehicleOptions { fuel_fraction, fuel_burn: false, ..options });
             let mut expected = level.unwrap().omega;
-            let fuel = vehicle.fuel * fuel_fraction / build.fuel_fraction;
-            let airframe = vehicle.burn.as_ref().unwrap().airframe(fuel);
+            let fuel = vehicle.fuel * fuel_fraction / options.fuel_fraction;
+            let airframe = vehicle.fuel_table.as_ref().unwrap().airframe(fuel);
             // Symmetric in the modes with modal mass 1; the eigenvalues are the same.
             let symmetric = Matrix5::from_fn(|i, k| {
                 let product = airframe.stiffness[i][k] * airframe.stiffness[k][i];
@@ -149,7 +150,7 @@ fn verif_frequencies_go_through_the_crossing() {
             expected.sort_by(f64::total_cmp);
             for (found, expected) in found.into_iter().zip(expected) {
                 let error = deviation(found, expected, 1.0);
-                assert!(error < FREQUENCY, "{build:?} at {fuel_fraction}: {error:.1e}");
+                assert!(error < FREQUENCY, "{options:?} at {fuel_fraction}: {error:.1e}");
             }
         }
     }
@@ -161,7 +162,7 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
     let data = data();
     for aero in AERO_SETS {
         for configuration in CONFIGURATIONS {
-            let full = Build { aero, fuel_burn: true, ..build(configuration) };
+            let full = VehicleOptions { aero, fuel_burn: true, ..options(configuration) };
             let mut burning = Vehicle::new(&data, &full).unwrap();
             // Slow, in the limit: nothing flows.
             burning.intake.stoichiometric_ratio = 0.0;
@@ -170,7 +171,7 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
             // answer with the root of any change.
             for fuel_fraction in [0.93, 0.6, 0.31, 0.15, 0.05] {
                 burning.fuel = full_load * fuel_fraction;
-                let level = Build { fuel_fraction, fuel_burn: false, ..full };
+                let level = VehicleOptions { fuel_fraction, fuel_burn: false, ..full };
                 let level = Vehicle::new(&data, &level).unwrap();
                 let [one, other] = [&burning, &level].map(|v| trim(v, &full.condition).unwrap());
                 let what = format!("{configuration:?} {aero:?} at {fuel_fraction}");
@@ -183,11 +184,11 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
                     assert!((one - other).abs() < 1e-7, "{what}");
                 }
                 let [shown, expected] = [(&burning, one), (&level, other)]
-                    .map(|(v, t)| v.both(&t.state, &t.control, [0.0; GUSTS]).1);
+                    .map(|(v, t)| v.derivatives_and_outputs(&t.state, &t.control, [0.0; GUSTS]).1);
                 assert_close(&what, shown.loads.lift, expected.loads.lift, 1e-7);
                 assert_close(&what, shown.n_z, expected.n_z, 1e-7);
                 let [poles, expected] = [(&burning, one), (&level, other)]
-                    .map(|(v, t)| Linear::new(v, &t.state, &t.control).poles());
+                    .map(|(v, t)| LinearModel::new(v, &t.state, &t.control).poles());
                 for pole in &expected {
                     let distance = |other: &nalgebra::Complex<f64>| (pole - other).norm();
                     let nearest = poles.iter().map(distance).fold(f64::INFINITY, f64::min);
@@ -201,8 +202,8 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
 #[test]
 fn verif_dual_numbers_know_what_the_fuel_does() {
     let data = data();
-    for build in builds() {
-        let vehicle = Vehicle::new(&data, &build).unwrap();
+    for options in builds() {
+        let vehicle = Vehicle::new(&data, &options).unwrap();
         let mut x = [0.0; STATES];
         x[..5].copy_from_slice(&[2500.0, 26_000.0, 0.01, 0.03, 0.02]);
         for i in 0..2 * vehicle.modes {
@@ -215,12 +216,13 @@ fn verif_dual_numbers_know_what_the_fuel_does() {
             let dual: [Dual<1>; STATES] =
                 std::array::from_fn(|i| Dual { re: x[i], eps: [f64::from(i == FUEL)] });
             let still = [Dual::constant(0.0); GUSTS];
-            let (rates, outputs) = vehicle.both(&dual, &u.map(Dual::constant), still);
+            let (rates, outputs) =
+                vehicle.derivatives_and_outputs(&dual, &u.map(Dual::constant), still);
             let size = 1e-4 * vehicle.fuel;
             let shifted = |steps: f64| {
                 let mut x = x;
                 x[FUEL] += steps * size;
-                vehicle.both(&x, &u, [0.0; GUSTS])
+                vehicle.derivatives_and_outputs(&x, &u, [0.0; GUSTS])
             };
             let [a, b, c, d] = [1.0, -1.0, 2.0, -2.0].map(shifted);
             let check = |what: &str, dual: Dual<1>, [a, b, c, d]: [f64; 4]| {

@@ -30,7 +30,11 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
             black_box(vehicle.derivatives(black_box(&trim.state), &trim.control, [0.0; 2]));
         }),
         Probe::Outputs => (0..calls).for_each(|_| {
-            black_box(vehicle.both(black_box(&trim.state), &trim.control, [0.0; 2]));
+            black_box(vehicle.derivatives_and_outputs(
+                black_box(&trim.state),
+                &trim.control,
+                [0.0; 2],
+            ));
         }),
         Probe::Steps => {
             for _ in 0..calls / STEPS {

@@ -45,15 +45,15 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
 
     let setup = Setup::new()?;
     let flight = setup.fly()?;
-    let build = setup.parameters.build;
+    let options = setup.parameters.options;
     let vehicle = flight.vehicle();
-    let trimmed = seconds(effort, || trim(vehicle, &build.condition));
+    let trimmed = seconds(effort, || trim(vehicle, &options.condition));
     report.line("trim", trimmed.scaled(1e3), "ms", "");
     let mut data = Data::embedded()?;
     let (mut first, mut ours) = (None, f64::NAN);
     for elements in ELEMENTS {
         data.vehicle.beam.elements.value = elements;
-        let (beam, oscillators) = structure(&data, &build)?;
+        let (beam, oscillators) = structure(&data, &options)?;
         let time = seconds(effort, || Modes::solve(&beam, &oscillators));
         let per = time.median / f64::from(elements);
         let growth = per / *first.get_or_insert(per);
@@ -63,7 +63,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         let note = format!("{growth:.2} x the time per element of 125");
         report.line(format!("modes, {elements} elements"), time.scaled(1e3), "ms", note);
     }
-    if let Err(why) = peers(report, &solved_elements(&build)?, ours) {
+    if let Err(why) = peers(report, &solved_elements(&options)?, ours) {
         report.left_out("eigsh and LAPACK", &why);
     }
     Ok(())

@@ -3,7 +3,7 @@
 
 use ahv::data::Inertia;
 use ahv::error::Error;
-use ahv::vehicle::{Body, Chosen, Configuration};
+use ahv::vehicle::{Body, Configuration, VehicleDefinition};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -19,15 +19,15 @@ pub struct Bodies(Mutex<VecDeque<(Key, Arc<Body>)>>);
 
 impl Bodies {
     /// [`Body::new`], unless it is known.
-    pub fn of(&self, chosen: &Chosen) -> Result<Arc<Body>, Error> {
-        let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &chosen.aero.inertia;
+    pub fn of(&self, definition: &VehicleDefinition) -> Result<Arc<Body>, Error> {
+        let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &definition.aero.inertia;
         let shift = mass_centre_shift_m.as_ref().map(|shift| shift.value.to_bits());
-        let key = (chosen.build.configuration, i_yy_kg_m2_per_m.value.to_bits(), shift);
+        let key = (definition.options.configuration, i_yy_kg_m2_per_m.value.to_bits(), shift);
         let latest = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, body)) = latest().iter().find(|(known, _)| *known == key) {
             return Ok(body.clone());
         }
-        let body = Arc::new(Body::new(chosen)?);
+        let body = Arc::new(Body::new(definition)?);
         let mut latest = latest();
         latest.truncate(KEPT - 1);
         latest.push_front((key, body.clone()));
@@ -45,16 +45,16 @@ mod tests {
     fn a_body_is_that_of_its_inertia_and_mass_centre() {
         let data = Data::embedded().unwrap();
         let bodies = Bodies::default();
-        let mut chosen = Chosen::new(&data, &Parameters::new(&data).build);
+        let mut definition = VehicleDefinition::new(&data, &Parameters::new(&data).options);
         for _ in 0..2 * KEPT {
-            let fresh = Body::new(&chosen).unwrap();
+            let fresh = Body::new(&definition).unwrap();
             for _ in 0..2 {
-                let body = bodies.of(&chosen).unwrap();
+                let body = bodies.of(&definition).unwrap();
                 assert_eq!(body.displacements(), fresh.displacements());
                 assert_eq!(body.properties, fresh.properties);
             }
-            chosen.aero.inertia.i_yy_kg_m2_per_m.value *= 1.001;
-            chosen.aero.inertia.mass_centre_shift_m.as_mut().unwrap().value += 0.01;
+            definition.aero.inertia.i_yy_kg_m2_per_m.value *= 1.001;
+            definition.aero.inertia.mass_centre_shift_m.as_mut().unwrap().value += 0.01;
         }
         assert_eq!(bodies.0.lock().unwrap().len(), KEPT);
     }

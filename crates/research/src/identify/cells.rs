@@ -1,7 +1,7 @@
 //! The cells of Tables 2 and 3: what is printed, how closely it is wanted, what a vehicle gives.
 
 use crate::published::Published;
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::Trim;
 use ahv::vehicle::{Configuration, Vehicle};
 use anyhow::Result;
@@ -118,14 +118,14 @@ impl Roots {
 }
 
 /// The unstable and the stable pole of the short period; none if it oscillates.
-pub fn short_period(linear: &Linear) -> Option<[f64; 2]> {
+pub fn short_period(linear: &LinearModel) -> Option<[f64; 2]> {
     Roots::new(linear.poles()).outer()
 }
 
 /// What a trimmed vehicle puts into the cells of its column; none with roots of another kind than
 /// the printed ones.
 pub fn values(vehicle: &Vehicle, trim: &Trim) -> Option<Vec<f64>> {
-    let linear = Linear::sensed(vehicle, &trim.state, &trim.control);
+    let linear = LinearModel::with_imu_gamma(vehicle, &trim.state, &trim.control);
     let (poles, zeros) = (Roots::new(linear.poles()), Roots::new(linear.zeros()));
     let flexible = vehicle.modes.min(ahv::structure::FLEXIBLE);
     let [unstable, stable] = poles.outer()?;

@@ -7,7 +7,7 @@ use super::numbers::{MOVABLE, Origin, hardly_moves};
 use ahv::data::{AeroData, Data};
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::flight::Parameters;
-use ahv::vehicle::{Build, Chosen, Vehicle};
+use ahv::vehicle::{Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Context, Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 
@@ -30,7 +30,7 @@ pub struct Model {
     pub cells: Vec<Cell>,
     pub origin: Origin,
     pub data: Data,
-    pub columns: Vec<Build>,
+    pub columns: Vec<VehicleOptions>,
     pub(super) bodies: Bodies,
 }
 
@@ -74,8 +74,9 @@ fn excess(value: f64, [min, max]: [f64; 2]) -> f64 {
 
 impl Model {
     pub fn new(data: Data) -> Result<Self> {
-        let default = Parameters::new(&data).build;
-        let columns = COLUMNS.map(|configuration| Build { configuration, ..default }).to_vec();
+        let default = Parameters::new(&data).options;
+        let columns =
+            COLUMNS.map(|configuration| VehicleOptions { configuration, ..default }).to_vec();
         Ok(Self {
             cells: cells()?,
             origin: Origin::new()?,
@@ -86,12 +87,12 @@ impl Model {
     }
 
     fn trimmed(&self, set: &AeroData) -> Option<Vec<(Vehicle, Trim)>> {
-        let one = |build: &Build| {
-            let chosen = Chosen::with_set(&self.data, build, set);
-            let body = self.bodies.of(&chosen).ok()?;
-            let chosen = chosen.sensed_as_printed(body.properties.centre_m);
-            let vehicle = unlimited(Vehicle::with_body(&chosen, &body).ok()?);
-            let trim = trim(&vehicle, &build.condition).ok()?;
+        let one = |options: &VehicleOptions| {
+            let definition = VehicleDefinition::with_coefficients(&self.data, options, set);
+            let body = self.bodies.of(&definition).ok()?;
+            let definition = definition.with_imu_of_table_3(body.properties.centre_m);
+            let vehicle = unlimited(Vehicle::with_body(&definition, &body).ok()?);
+            let trim = trim(&vehicle, &options.condition).ok()?;
             Some((vehicle, trim))
         };
         self.columns.iter().map(one).collect()

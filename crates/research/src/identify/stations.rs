@@ -4,7 +4,7 @@ use super::fit::CONVERGED;
 use super::numbers::{GAMMA_OFFSET, MASS_CENTRE, MOVABLE};
 use super::path::{Model, Point};
 use ahv::data::AeroData;
-use ahv::vehicle::Chosen;
+use ahv::vehicle::VehicleDefinition;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
@@ -48,13 +48,13 @@ impl Model {
     /// Where things sit in a set.
     pub fn stations(&self, set: &AeroData) -> Result<Stations> {
         let (mut mass_centre_ft, mut gamma_ft) = ([0.0; 3], [0.0; 3]);
-        for ((centre, gamma), build) in
+        for ((centre, gamma), options) in
             mass_centre_ft.iter_mut().zip(&mut gamma_ft).zip(&self.columns)
         {
-            let chosen = Chosen::with_set(&self.data, build, set);
-            let centre_m = self.bodies.of(&chosen)?.properties.centre_m;
+            let definition = VehicleDefinition::with_coefficients(&self.data, options, set);
+            let centre_m = self.bodies.of(&definition)?.properties.centre_m;
             *centre = centre_m / FOOT;
-            *gamma = chosen.sensed_as_printed(centre_m).build.stations.imu / FOOT;
+            *gamma = definition.with_imu_of_table_3(centre_m).options.stations.imu / FOOT;
         }
         let of = |fit: &ahv::data::PolynomialData| fit.delta_e.as_ref().map(|slope| slope.value);
         let (Some(lift), Some(moment)) = (of(&set.lift), of(&set.moment)) else {

@@ -5,7 +5,7 @@ use super::roots::{Name, Root, find};
 use super::sweep::Sweep;
 use super::tables::COLUMNS;
 use ahv::data::Data;
-use ahv::vehicle::{Build, Configuration};
+use ahv::vehicle::{Configuration, VehicleOptions};
 use anyhow::Result;
 use serde::Serialize;
 
@@ -123,11 +123,16 @@ fn limit(of: &'static str, point: &Point) -> Option<Limit> {
 }
 
 impl Interaction {
-    pub fn new(data: &Data, base: &Build, points: &[Point; 3], frequency: &Sweep) -> Result<Self> {
+    pub fn new(
+        data: &Data,
+        base: &VehicleOptions,
+        points: &[Point; 3],
+        frequency: &Sweep,
+    ) -> Result<Self> {
         let slosh = &points[2];
         let hybrid = Point::new(
             data,
-            &Build {
+            &VehicleOptions {
                 configuration: Configuration::SloshBeam,
                 fuel_fraction: 0.5,
                 slosh_frequency: HYBRID,
@@ -156,7 +161,8 @@ impl Interaction {
             }));
         }
 
-        let empty = Build { configuration: Configuration::SloshBeam, fuel_fraction: 0.0, ..*base };
+        let empty =
+            VehicleOptions { configuration: Configuration::SloshBeam, fuel_fraction: 0.0, ..*base };
         let empty = Point::new(data, &empty)?;
         let limits = COLUMNS
             .into_iter()

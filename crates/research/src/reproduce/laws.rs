@@ -4,7 +4,7 @@ use super::point::Point;
 use super::tables::short_period;
 use ahv::data::Data;
 use ahv::structure::MassProperties;
-use ahv::vehicle::{Build, Configuration, structure};
+use ahv::vehicle::{Configuration, VehicleOptions, structure};
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
@@ -54,12 +54,12 @@ pub struct Laws {
 
 struct Vehicle<'a> {
     data: &'a Data,
-    base: Build,
+    base: VehicleOptions,
     full: MassProperties,
 }
 
-fn properties(data: &Data, build: &Build) -> Result<MassProperties> {
-    let (beam, oscillators) = structure(data, build)?;
+fn properties(data: &Data, options: &VehicleOptions) -> Result<MassProperties> {
+    let (beam, oscillators) = structure(data, options)?;
     Ok(beam.mass_properties(&oscillators))
 }
 
@@ -67,15 +67,15 @@ impl Vehicle<'_> {
     /// The pole at a level of fuel; `inertia` over that of full tanks, where it is not that of the
     /// densities.
     fn pole(&self, fuel: f64, inertia: Option<f64>, centre: bool) -> Result<f64> {
-        let mut build = Build { fuel_fraction: fuel, ..self.base };
-        let own = properties(self.data, &build)?;
+        let mut options = VehicleOptions { fuel_fraction: fuel, ..self.base };
+        let own = properties(self.data, &options)?;
         if let Some(ratio) = inertia {
-            build.factors.inertia *= ratio * self.full.inertia / own.inertia;
+            options.factors.inertia *= ratio * self.full.inertia / own.inertia;
         }
         if centre {
-            build.factors.mass_centre_shift_m += self.full.centre_m - own.centre_m;
+            options.factors.mass_centre_shift_m += self.full.centre_m - own.centre_m;
         }
-        let [unstable, _] = short_period(&Point::new(self.data, &build)?.poles)
+        let [unstable, _] = short_period(&Point::new(self.data, &options)?.poles)
             .ok_or_else(|| anyhow!("the short period oscillates"))?;
         Ok(unstable)
     }
@@ -96,15 +96,16 @@ impl Vehicle<'_> {
     }
 
     fn own_ratio(&self) -> Result<f64> {
-        let empty = properties(self.data, &Build { fuel_fraction: 0.0, ..self.base })?;
+        let empty = properties(self.data, &VehicleOptions { fuel_fraction: 0.0, ..self.base })?;
         Ok(empty.inertia / self.full.inertia)
     }
 }
 
 impl Laws {
     /// `slight` ends the range of "slightly".
-    pub fn new(data: &Data, base: &Build, slight: f64) -> Result<Self> {
-        let base = Build { configuration: Configuration::SloshBeam, fuel_fraction: 1.0, ..*base };
+    pub fn new(data: &Data, base: &VehicleOptions, slight: f64) -> Result<Self> {
+        let base =
+            VehicleOptions { configuration: Configuration::SloshBeam, fuel_fraction: 1.0, ..*base };
         let vehicle = Vehicle { data, base, full: properties(data, &base)? };
         let law = |(name, held): (&'static str, Held)| -> Result<Law> {
             let level = |i| {

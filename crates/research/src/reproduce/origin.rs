@@ -6,10 +6,10 @@ use super::tables::{COLUMNS, real_zeros, short_period};
 use crate::identify::size;
 use crate::published::Published;
 use ahv::data::{AeroData, AeroSet, Data};
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::structure::FLEXIBLE;
-use ahv::vehicle::{Build, Chosen, Configuration, Vehicle};
+use ahv::vehicle::{Configuration, Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Result, anyhow};
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
@@ -59,7 +59,7 @@ impl Case {
     }
 
     /// Of a linear system without slosh and bending.
-    fn rigid(what: &str, linear: &Linear) -> Result<Self> {
+    fn rigid(what: &str, linear: &LinearModel) -> Result<Self> {
         let outer = |roots: Vec<Complex<f64>>| {
             let real = roots.iter().filter(|root| root.im == 0.0).map(|root| root.re);
             [real.clone().fold(0.0, f64::max), real.fold(0.0, f64::min)]
@@ -96,23 +96,29 @@ pub struct Origin {
 
 struct Lab<'a> {
     data: &'a Data,
-    base: Build,
+    base: VehicleOptions,
 }
 
 impl Lab<'_> {
     /// The published set with another inertia, elastic terms and mass centre.
-    fn chosen(&self, column: usize, inertia: f64, elastic: f64, shift: f64) -> Chosen {
+    fn definition(
+        &self,
+        column: usize,
+        inertia: f64,
+        elastic: f64,
+        shift: f64,
+    ) -> VehicleDefinition {
         let mut set: AeroData = (*self.data.parker2007).clone();
         set.inertia.i_yy_kg_m2_per_m.value = inertia;
         set.reference.elastic_scale.value *= elastic;
-        let mut build = Build { configuration: CONFIGURATIONS[column], ..self.base };
-        build.aero = AeroSet::Parker2007;
-        build.factors.mass_centre_shift_m = shift;
-        Chosen::with_set(self.data, &build, &set)
+        let mut options = VehicleOptions { configuration: CONFIGURATIONS[column], ..self.base };
+        options.aero = AeroSet::Parker2007;
+        options.factors.mass_centre_shift_m = shift;
+        VehicleDefinition::with_coefficients(self.data, &options, &set)
     }
 
     fn point(&self, column: usize, inertia: f64, elastic: f64, shift: f64) -> Result<Point> {
-        Point::of(self.chosen(column, inertia, elastic, shift), Gamma::Printed)
+        Point::of(self.definition(column, inertia, elastic, shift), Gamma::Printed)
     }
 
     /// Newton's method on the logarithms of both products.
@@ -134,8 +140,8 @@ impl Lab<'_> {
             let jacobian = Matrix2::from_columns(&[slope(0)?, slope(1)?]);
             at -= jacobian.lu().solve(&here).ok_or_else(|| anyhow!("no inertia asked for"))?;
         }
-        let chosen = self.chosen(column, at[0].exp(), 1.0, at[1]);
-        let (beam, oscillators) = chosen.structure()?;
+        let definition = self.definition(column, at[0].exp(), 1.0, at[1]);
+        let (beam, oscillators) = definition.structure()?;
         let mass_centre_m = beam.mass_properties(&oscillators).centre_m;
         Ok(Asked { column: COLUMNS[column], inertia: at[0].exp(), mass_centre_m })
     }
@@ -164,7 +170,7 @@ fn lift_coefficient(vehicle: &Vehicle, set: &AeroData, state: [f64; 2], k: f64) 
 }
 
 impl Origin {
-    pub fn new(data: &Data, base: &Build, published: &Published) -> Result<Self> {
+    pub fn new(data: &Data, base: &VehicleOptions, published: &Published) -> Result<Self> {
         let lab = Lab { data, base: *base };
         let printed = printed(published);
         let own = data.parker2007.inertia.i_yy_kg_m2_per_m.value;
@@ -181,8 +187,10 @@ impl Origin {
             |scale: f64| Case::of(format!("× {scale}"), &lab.point(1, INERTIA, scale, 0.0)?);
         let shift =
             |shift: f64| Case::of(format!("{shift} m"), &lab.point(1, INERTIA, 1.0, shift)?);
-        let even = Build { configuration: Configuration::EvenMassBeam, ..*base };
-        let seen = |what: &str, gamma| Case::of(what, &Point::of(Chosen::new(data, &even), gamma)?);
+        let even = VehicleOptions { configuration: Configuration::EvenMassBeam, ..*base };
+        let seen = |what: &str, gamma| {
+            Case::of(what, &Point::of(VehicleDefinition::new(data, &even), gamma)?)
+        };
 
         let trim = trim(&rigid.vehicle, &base.condition)?;
         let system = &rigid.linear;

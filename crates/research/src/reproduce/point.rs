@@ -2,10 +2,10 @@
 
 use super::roots::{BODY_ROWS, Metric, RIGID_ROWS, Root, name_poles, name_zeros, roots};
 use ahv::data::Data;
-use ahv::dynamics::linear::{Linear, OUTPUT_STATES};
+use ahv::dynamics::linear::{LinearModel, OUTPUT_STATES};
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::structure::{FLEXIBLE, RigidMotion, SLOSH};
-use ahv::vehicle::{Body, Build, Chosen, RIGID, Vehicle};
+use ahv::vehicle::{Body, RIGID, Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 
@@ -22,37 +22,37 @@ pub enum Gamma {
 #[derive(Debug, Clone)]
 pub struct Point {
     pub vehicle: Vehicle,
-    pub linear: Linear,
+    pub linear: LinearModel,
     pub metric: Metric,
     pub poles: Vec<Root>,
     pub zeros: Vec<Root>,
 }
 
 impl Point {
-    pub fn new(data: &Data, build: &Build) -> Result<Self> {
-        Self::of(Chosen::new(data, build), Gamma::Printed)
+    pub fn new(data: &Data, options: &VehicleOptions) -> Result<Self> {
+        Self::of(VehicleDefinition::new(data, options), Gamma::Printed)
     }
 
     /// With any coefficient set.
-    pub fn of(chosen: Chosen, gamma: Gamma) -> Result<Self> {
-        let build = chosen.build;
+    pub fn of(definition: VehicleDefinition, gamma: Gamma) -> Result<Self> {
+        let options = definition.options;
         let failed = || {
             format!(
                 "{:?} with {:?}, {:.0} % fuel, sloshing at {} rad/s with damping {}",
-                build.configuration,
-                build.aero,
-                100.0 * build.fuel_fraction,
-                build.slosh_frequency,
-                build.slosh_damping
+                options.configuration,
+                options.aero,
+                100.0 * options.fuel_fraction,
+                options.slosh_frequency,
+                options.slosh_damping
             )
         };
-        let body = Body::new(&chosen).with_context(failed)?;
-        let chosen = chosen.sensed_as_printed(body.properties.centre_m);
-        let vehicle = Vehicle::with_body(&chosen, &body).with_context(failed)?;
-        let trim = trim(&vehicle, &build.condition).with_context(failed)?;
+        let body = Body::new(&definition).with_context(failed)?;
+        let definition = definition.with_imu_of_table_3(body.properties.centre_m);
+        let vehicle = Vehicle::with_body(&definition, &body).with_context(failed)?;
+        let trim = trim(&vehicle, &options.condition).with_context(failed)?;
         let linearise = match gamma {
-            Gamma::Printed => Linear::sensed,
-            Gamma::MeanAxes => Linear::new,
+            Gamma::Printed => LinearModel::with_imu_gamma,
+            Gamma::MeanAxes => LinearModel::new,
         };
         let linear = linearise(&vehicle, &trim.state, &trim.control);
         let metric = metric(&vehicle, &trim, &body);
@@ -64,7 +64,7 @@ impl Point {
     /// Poles and zeros if the slosh modes are left out of the equations of flight.
     pub fn without_slosh(&self) -> [Vec<Root>; 2] {
         let kept = self.linear.a.nrows().min(RIGID + 2 * FLEXIBLE);
-        let linear = Linear {
+        let linear = LinearModel {
             a: self.linear.a.view((0, 0), (kept, kept)).into_owned(),
             b: self.linear.b.rows(0, kept).into_owned(),
             c: self.linear.c.columns(0, kept).into_owned(),
@@ -75,7 +75,12 @@ impl Point {
     }
 }
 
-fn named_roots(linear: &Linear, metric: &Metric, slosh: usize, flexible: bool) -> [Vec<Root>; 2] {
+fn named_roots(
+    linear: &LinearModel,
+    metric: &Metric,
+    slosh: usize,
+    flexible: bool,
+) -> [Vec<Root>; 2] {
     let mut poles = roots(&linear.a, &linear.poles(), metric);
     name_poles(&mut poles, slosh, flexible);
     let mut zeros = Vec::new();
@@ -117,8 +122,8 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
     let motion = RigidMotion::of(beam);
     // The root of [[mass, first], [first, inertia]].
     let translation = motion.mass.sqrt();
-    let coupling = beam.moments.first / translation;
-    let rotation = (motion.inertia + beam.moments.second - coupling * coupling).sqrt();
+    let coupling = beam.correction.first / translation;
+    let rotation = (motion.inertia + beam.correction.second - coupling * coupling).sqrt();
     for (i, shape) in modes.shape.iter().enumerate() {
         let rate = RIGID + 2 * i + 1;
         let [moved, turned] = motion.part(&shape.w, &shape.slope);
@@ -148,12 +153,13 @@ mod tests {
     #[test]
     fn the_energy_of_a_mode_is_that_of_the_one_mass_matrix() {
         let data = Data::embedded().unwrap();
-        let default = Parameters::new(&data).build;
+        let default = Parameters::new(&data).options;
         for configuration in [Configuration::EvenMassBeam, Configuration::SloshBeam] {
-            let chosen = Chosen::new(&data, &Build { configuration, ..default });
-            let (beam, oscillators) = chosen.structure().unwrap();
+            let definition =
+                VehicleDefinition::new(&data, &VehicleOptions { configuration, ..default });
+            let (beam, oscillators) = definition.structure().unwrap();
             let modes = Modes::solve(&beam, &oscillators).unwrap();
-            let metric = Point::of(chosen, Gamma::Printed).unwrap().metric.matrix;
+            let metric = Point::of(definition, Gamma::Printed).unwrap().metric.matrix;
             let energy = metric.tr_mul(&metric);
             for i in 0..modes.count {
                 for k in 0..modes.count {

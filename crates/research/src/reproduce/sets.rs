@@ -23,7 +23,7 @@ fn all(setup: &Setup) -> Result<Vec<Set>> {
         .map(|&(name, value, description)| {
             let mut setup = setup.clone();
             variable.set(&mut setup, f64::from(value))?;
-            Ok(Set { name, description, aero: setup.parameters.build.aero })
+            Ok(Set { name, description, aero: setup.parameters.options.aero })
         })
         .collect()
 }
@@ -33,7 +33,7 @@ pub fn chosen(names: &[String]) -> Result<Vec<Set>> {
     let setup = Setup::new()?;
     let sets = all(&setup)?;
     if names.is_empty() {
-        let default = setup.parameters.build.aero;
+        let default = setup.parameters.options.aero;
         return Ok(sets.into_iter().filter(|set| set.aero == default).collect());
     }
     if names.iter().any(|name| name == "all") {

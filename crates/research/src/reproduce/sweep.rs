@@ -4,7 +4,7 @@ use super::point::Point;
 use super::roots::{Name, Root};
 use super::track::{assurance, matches};
 use ahv::data::Data;
-use ahv::vehicle::{Build, Configuration};
+use ahv::vehicle::{Configuration, VehicleOptions};
 use anyhow::Result;
 use nalgebra::Complex;
 use serde::{Serialize, Serializer};
@@ -72,25 +72,25 @@ impl Parameter {
         }
     }
 
-    fn build(self, base: &Build, value: f64) -> Build {
-        let slosh = Build { configuration: Configuration::SloshBeam, ..*base };
-        let half = Build { fuel_fraction: 0.5, ..slosh };
+    fn options(self, base: &VehicleOptions, value: f64) -> VehicleOptions {
+        let slosh = VehicleOptions { configuration: Configuration::SloshBeam, ..*base };
+        let half = VehicleOptions { fuel_fraction: 0.5, ..slosh };
         match self {
-            Self::Fuel => Build { fuel_fraction: value, ..slosh },
-            Self::Damping => Build { slosh_damping: value, ..half },
-            Self::Frequency => Build { slosh_frequency: value, ..half },
+            Self::Fuel => VehicleOptions { fuel_fraction: value, ..slosh },
+            Self::Damping => VehicleOptions { slosh_damping: value, ..half },
+            Self::Frequency => VehicleOptions { slosh_frequency: value, ..half },
         }
     }
 }
 
 impl Sweep {
-    pub fn new(data: &Data, base: &Build, parameter: Parameter) -> Result<Self> {
+    pub fn new(data: &Data, base: &VehicleOptions, parameter: Parameter) -> Result<Self> {
         let (from, to, count) = parameter.range();
         let steps: Vec<f64> =
             (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
         let points = steps
             .iter()
-            .map(|&value| Point::new(data, &parameter.build(base, value)))
+            .map(|&value| Point::new(data, &parameter.options(base, value)))
             .collect::<Result<Vec<_>>>()?;
         let mut weakest_match = 1.0;
         let poles = follow(points.iter().map(|point| &point.poles), &mut weakest_match);

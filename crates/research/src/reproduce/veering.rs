@@ -2,7 +2,7 @@
 
 use ahv::data::Data;
 use ahv::structure::{MODES, Modes};
-use ahv::vehicle::{Build, Configuration, structure};
+use ahv::vehicle::{Configuration, VehicleOptions, structure};
 use anyhow::Result;
 use serde::Serialize;
 
@@ -34,19 +34,19 @@ pub struct Veering {
 }
 
 impl Veering {
-    pub fn new(data: &Data, base: &Build, fuel: f64) -> Result<Self> {
+    pub fn new(data: &Data, base: &VehicleOptions, fuel: f64) -> Result<Self> {
         let mut steps = Vec::with_capacity(STEPS + 1);
         let mut omega: [Vec<f64>; MODES] = Default::default();
         let mut slosh: [Vec<f64>; MODES] = Default::default();
         for step in 0..=STEPS {
             let frequency = FROM + (TO - FROM) * step as f64 / STEPS as f64;
-            let build = Build {
+            let options = VehicleOptions {
                 configuration: Configuration::SloshBeam,
                 fuel_fraction: fuel,
                 slosh_frequency: frequency,
                 ..*base
             };
-            let (beam, oscillators) = structure(data, &build)?;
+            let (beam, oscillators) = structure(data, &options)?;
             let modes = Modes::solve(&beam, &oscillators)?;
             let mut order: Vec<usize> = (0..MODES).collect();
             let rate = &modes.omega_rad_per_s;

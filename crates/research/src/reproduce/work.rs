@@ -18,7 +18,7 @@ use crate::published::Published;
 use ahv::data::{AeroSet, Data};
 use ahv::flight::Parameters;
 use ahv::structure::Modes;
-use ahv::vehicle::{Build, Chosen, Configuration, structure};
+use ahv::vehicle::{Configuration, VehicleDefinition, VehicleOptions, structure};
 use ahv_tool::figure::{Drawing, files};
 use ahv_tool::workspace::Files;
 use anyhow::Result;
@@ -41,13 +41,13 @@ pub struct Work<'a> {
     pub drawn: RefCell<Files>,
     data: Data,
     published: Published,
-    base: Build,
+    base: VehicleOptions,
 }
 
 impl<'a> Work<'a> {
     pub fn new(parts: &'a [Part], figures: PathBuf) -> Result<Self> {
         let data = Data::embedded()?;
-        let base = Parameters::new(&data).build;
+        let base = Parameters::new(&data).options;
         let drawn = RefCell::default();
         Ok(Self { parts, figures, drawn, data, published: Published::embedded()?, base })
     }
@@ -110,9 +110,10 @@ impl<'a> Work<'a> {
     /// The vehicle of the best that one inertia and free stations can do.
     fn best(&self, trade_off: &TradeOff) -> Result<[Point; 3]> {
         let of = |configuration| {
-            let build = Build { configuration, aero: AeroSet::Xu2015, ..self.base };
-            let chosen = Chosen::with_set(&self.data, &build, &trade_off.best_set);
-            Point::of(chosen, Gamma::Printed)
+            let options = VehicleOptions { configuration, aero: AeroSet::Xu2015, ..self.base };
+            let definition =
+                VehicleDefinition::with_coefficients(&self.data, &options, &trade_off.best_set);
+            Point::of(definition, Gamma::Printed)
         };
         let [rigid, even, slosh] = CONFIGURATIONS.map(of);
         Ok([rigid?, even?, slosh?])
@@ -132,7 +133,7 @@ impl<'a> Work<'a> {
 
     fn set(&self, set: &Set, best: Option<&[Point; 3]>) -> Result<SetReport> {
         let best = best.filter(|_| set.aero == AeroSet::Xu2015);
-        let base = Build { aero: set.aero, ..self.base };
+        let base = VehicleOptions { aero: set.aero, ..self.base };
         let mut report = SetReport {
             name: set.name,
             description: set.description,
@@ -213,9 +214,9 @@ impl<'a> Work<'a> {
     }
 
     fn fig5(&self) -> Result<Figure> {
-        let build = |configuration| Build { configuration, ..self.base };
-        let (even, _) = structure(&self.data, &build(Configuration::EvenMassBeam))?;
-        let (beam, oscillators) = structure(&self.data, &build(Configuration::SloshBeam))?;
+        let options = |configuration| VehicleOptions { configuration, ..self.base };
+        let (even, _) = structure(&self.data, &options(Configuration::EvenMassBeam))?;
+        let (beam, oscillators) = structure(&self.data, &options(Configuration::SloshBeam))?;
         let [even, slosh] = [Modes::solve(&even, &[])?, Modes::solve(&beam, &oscillators)?];
         let drawing = shapes::Shapes {
             data: &self.data.vehicle,
@@ -236,9 +237,9 @@ impl<'a> Work<'a> {
     }
 }
 
-fn points(data: &Data, base: &Build) -> Result<[Point; 3]> {
-    let [rigid, even, slosh] =
-        CONFIGURATIONS.map(|configuration| Point::new(data, &Build { configuration, ..*base }));
+fn points(data: &Data, base: &VehicleOptions) -> Result<[Point; 3]> {
+    let [rigid, even, slosh] = CONFIGURATIONS
+        .map(|configuration| Point::new(data, &VehicleOptions { configuration, ..*base }));
     Ok([rigid?, even?, slosh?])
 }
 

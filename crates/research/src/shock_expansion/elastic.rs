@@ -3,7 +3,7 @@
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
 use crate::gas::GasError;
-use ahv::air::curve_fits::{Aero, DRAG, Elastic, FORCE, LIFT, MOMENT};
+use ahv::air::curve_fits::{Aero, DRAG, Elastic, LIFT, MODAL_FORCE, MOMENT};
 use ahv::structure::{Beam, Modes};
 
 /// Modal coordinate (m), and its rate over the speed, of the central differences: bends of 1e-4
@@ -42,7 +42,7 @@ impl ShockExpansion {
                 answers[MOMENT] = change(&moment) / aero.chord;
                 for (i, mode) in modes.shape.iter().enumerate() {
                     let work = |run: &AirLoads| run.generalised(|x| mode.w_at(&beam.point(x)));
-                    answers[FORCE + i] = change(&work) / modes.modal_mass[i];
+                    answers[MODAL_FORCE + i] = change(&work) / modes.modal_mass[i];
                 }
             }
         }
@@ -62,7 +62,8 @@ pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
             let per = elastic.per[..modes].iter();
             per.flat_map(|per| &per[which][first..first + rows]).copied().collect()
         };
-        let three = |which| [of(LIFT, 1, which), of(MOMENT, 1, which), of(FORCE, modes, which)];
+        let three =
+            |which| [of(LIFT, 1, which), of(MOMENT, 1, which), of(MODAL_FORCE, modes, which)];
         [three(0), three(1)].concat()
     };
     let (all, others) = (terms(elastic), terms(other));

@@ -34,7 +34,7 @@ pub fn uniform(elements: usize, length: f64, stiffness: f64, density: f64) -> Be
         element_m: length / elements as f64,
         stiffness: vec![stiffness; elements],
         density: vec![density; elements],
-        moments: Default::default(),
+        correction: Default::default(),
     }
 }
 
@@ -73,12 +73,12 @@ impl Reference<'_> {
             [54.0, 13.0, 156.0, -22.0],
             [-13.0, -3.0, -22.0, 4.0],
         ];
-        let build = |table: [[f64; 4]; 4], scale: Dd| {
+        let options = |table: [[f64; 4]; 4], scale: Dd| {
             std::array::from_fn(|i| {
                 std::array::from_fn(|k| scale * table[i][k] * unit[i] * unit[k])
             })
         };
-        (build(stiffness, ei), build(inertia, mass))
+        (options(stiffness, ei), options(inertia, mass))
     }
 
     /// Rows `i` to `i + 3` of the upper band of `K - sigma M`, the sloshing masses eliminated.

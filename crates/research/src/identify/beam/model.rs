@@ -6,11 +6,11 @@ use crate::identify::cells::{short_period, size};
 use crate::identify::fit::{End, Fit, minimise};
 use crate::published::Published;
 use ahv::data::{AeroData, Data, VehicleData};
-use ahv::dynamics::linear::Linear;
+use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::flight::Parameters;
 use ahv::structure::FLEXIBLE;
-use ahv::vehicle::{Build, Chosen, Configuration, Vehicle};
+use ahv::vehicle::{Configuration, Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Context, Result};
 use nalgebra::DVector;
 
@@ -46,7 +46,7 @@ pub struct Model {
     pub prior: Prior,
     pub wanted: [f64; DATA],
     data: Data,
-    build: Build,
+    options: VehicleOptions,
     set: AeroData,
 }
 
@@ -59,21 +59,24 @@ pub struct Solution {
 
 impl Model {
     pub fn new(data: Data, wanted: [f64; DATA]) -> Result<Self> {
-        let build = Parameters::new(&data).build;
+        let options = Parameters::new(&data).options;
         let prior = Prior::new(&data.vehicle, wanted[0])?;
         // The published coefficients, on the body that they were identified for.
         let set = AeroData { inertia: data.xu2015.inertia.clone(), ..(*data.parker2007).clone() };
-        Ok(Self { prior, wanted, data, build, set })
+        Ok(Self { prior, wanted, data, options, set })
     }
 
     /// Flexible frequencies of a configuration, rad/s, and the size of its short period with the
     /// published coefficients.
     fn column(&self, vehicle: &VehicleData, configuration: Configuration) -> Option<[f64; 4]> {
         let data = Data { vehicle: vehicle.clone().into(), ..self.data.clone() };
-        let build = Build { configuration, ..self.build };
-        let vehicle = Vehicle::chosen(&Chosen::with_set(&data, &build, &self.set)).ok()?;
-        let trim = trim(&vehicle, &build.condition).ok()?;
-        let linear = Linear::new(&vehicle, &trim.state, &trim.control);
+        let options = VehicleOptions { configuration, ..self.options };
+        let vehicle = Vehicle::from_definition(&VehicleDefinition::with_coefficients(
+            &data, &options, &self.set,
+        ))
+        .ok()?;
+        let trim = trim(&vehicle, &options.condition).ok()?;
+        let linear = LinearModel::new(&vehicle, &trim.state, &trim.control);
         let [a, b, c, ..] = vehicle.omega;
         Some([a, b, c, size(short_period(&linear)?)])
     }

@@ -7,7 +7,7 @@ use crate::identify::fit::minimise;
 use ahv::data::{Data, DataFile, VehicleData};
 use ahv::flight::Parameters;
 use ahv::structure::{FLEXIBLE, Modes};
-use ahv::vehicle::{Build, Configuration, structure};
+use ahv::vehicle::{Configuration, VehicleOptions, structure};
 use nalgebra::DVector;
 
 fn model() -> Model {
@@ -44,10 +44,11 @@ fn slopes_by_stiffness_add_up_to_half_of_the_beams_energy() {
     let data = Data::embedded().unwrap();
     let model = model();
     let slopes = sensitivity(&model, &data.vehicle).unwrap();
-    let build = Parameters::new(&data).build;
+    let options = Parameters::new(&data).options;
     let columns = [Configuration::EvenMassBeam, Configuration::SloshBeam];
     for (column, configuration) in columns.into_iter().enumerate() {
-        let (beam, oscillators) = structure(&data, &Build { configuration, ..build }).unwrap();
+        let (beam, oscillators) =
+            structure(&data, &VehicleOptions { configuration, ..options }).unwrap();
         let modes = Modes::solve(&beam, &oscillators).unwrap();
         for mode in 0..FLEXIBLE {
             let row = slopes.row(column * FLEXIBLE + mode);

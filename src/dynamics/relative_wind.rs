@@ -1,10 +1,10 @@
 //! Air in motion.
 
 use crate::solve::Scalar;
-use crate::vehicle::{Gust, State};
+use crate::vehicle::{ALPHA, GAMMA, Gust, State, V};
 
 /// The vehicle as moving air meets it.
-pub struct Stream<S> {
+pub struct RelativeWind<S> {
     /// Speed through the air, m/s.
     pub speed: S,
     /// Incidence to it, rad.
@@ -17,21 +17,21 @@ pub struct Stream<S> {
     pub turn: (S, S),
 }
 
-impl<S: Scalar> Stream<S> {
+impl<S: Scalar> RelativeWind<S> {
     /// What moving air makes of the state.
     #[inline]
     pub fn new(x: &State<S>, gust: Gust<S>) -> Self {
         let (zero, one) = (S::constant(0.0), S::constant(1.0));
-        let body = x[3].sin_cos();
+        let body = x[ALPHA].sin_cos();
         let [up, forward] = gust;
         if up.is_zero() && forward.is_zero() {
-            return Self { speed: x[0], incidence: x[3], body, axis: body, turn: (zero, one) };
+            return Self { speed: x[V], incidence: x[ALPHA], body, axis: body, turn: (zero, one) };
         }
-        let (sin_gamma, cos_gamma) = x[2].sin_cos();
-        let along = x[0] - up * sin_gamma - forward * cos_gamma;
+        let (sin_gamma, cos_gamma) = x[GAMMA].sin_cos();
+        let along = x[V] - up * sin_gamma - forward * cos_gamma;
         let across = up * cos_gamma - forward * sin_gamma;
         let speed = (along * along + across * across).sqrt();
-        let incidence = x[3] + (across / along).atan();
+        let incidence = x[ALPHA] + (across / along).atan();
         let (sin, cos) = (across / speed, along / speed);
         let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
         Self { speed, incidence, body, axis, turn: (sin, cos) }

@@ -43,7 +43,7 @@ impl RigidMotion {
 
 /// Moments of mass beyond those of the density.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Moments {
+pub struct MassCorrection {
     /// delta, kg: of the mass per metre of width.
     pub first: f64,
     /// j, kg m^2/m.
@@ -52,7 +52,7 @@ pub struct Moments {
     pub motion: RigidMotion,
 }
 
-impl Moments {
+impl MassCorrection {
     /// Adds `(delta (h r^T + r h^T) + j r r^T) displacement` to a product.
     pub fn add_product(&self, displacement: &[f64], product: &mut [f64]) {
         let RigidMotion { translation, rotation, .. } = &self.motion;
