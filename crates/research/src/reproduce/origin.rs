@@ -1,6 +1,6 @@
 //! Where the printed digits come from: numbers that speak for and against it.
 
-use super::point::{Gamma, Point};
+use super::operating_point::{Gamma, OperatingPoint};
 use super::roots::{Name, find};
 use super::tables::{COLUMNS, real_zeros, short_period};
 use crate::identify::size;
@@ -49,7 +49,7 @@ impl Case {
         size(self.zeros).powi(2)
     }
 
-    fn of(what: impl Into<String>, point: &Point) -> Result<Self> {
+    fn of(what: impl Into<String>, point: &OperatingPoint) -> Result<Self> {
         let what = what.into();
         let none = || anyhow!("{what}: no real short period or no real zeros");
         let poles = short_period(&point.poles).ok_or_else(none)?;
@@ -111,8 +111,14 @@ impl Lab<'_> {
         Chosen::with_set(self.data, &build, &set)
     }
 
-    fn point(&self, column: usize, inertia: f64, elastic: f64, shift: f64) -> Result<Point> {
-        Point::of(self.chosen(column, inertia, elastic, shift), Gamma::Printed)
+    fn point(
+        &self,
+        column: usize,
+        inertia: f64,
+        elastic: f64,
+        shift: f64,
+    ) -> Result<OperatingPoint> {
+        OperatingPoint::of(self.chosen(column, inertia, elastic, shift), Gamma::Printed)
     }
 
     /// Newton's method on the logarithms of both products.
@@ -182,7 +188,9 @@ impl Origin {
         let shift =
             |shift: f64| Case::of(format!("{shift} m"), &lab.point(1, INERTIA, 1.0, shift)?);
         let even = Build { configuration: Configuration::EvenMassBeam, ..*base };
-        let seen = |what: &str, gamma| Case::of(what, &Point::of(Chosen::new(data, &even), gamma)?);
+        let seen = |what: &str, gamma| {
+            Case::of(what, &OperatingPoint::of(Chosen::new(data, &even), gamma)?)
+        };
 
         let trim = trim(&rigid.vehicle, &base.condition)?;
         let system = &rigid.linear;

@@ -20,7 +20,7 @@ pub enum Gamma {
 
 /// All that the report needs to know of one vehicle.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct OperatingPoint {
     pub vehicle: Vehicle,
     pub linear: Linear,
     pub metric: Metric,
@@ -28,7 +28,7 @@ pub struct Point {
     pub zeros: Vec<Root>,
 }
 
-impl Point {
+impl OperatingPoint {
     pub fn new(data: &Data, build: &Build) -> Result<Self> {
         Self::of(Chosen::new(data, build), Gamma::Printed)
     }
@@ -153,7 +153,7 @@ mod tests {
             let chosen = Chosen::new(&data, &Build { configuration, ..default });
             let (beam, oscillators) = chosen.structure().unwrap();
             let modes = Modes::solve(&beam, &oscillators).unwrap();
-            let metric = Point::of(chosen, Gamma::Printed).unwrap().metric.matrix;
+            let metric = OperatingPoint::of(chosen, Gamma::Printed).unwrap().metric.matrix;
             let energy = metric.tr_mul(&metric);
             for i in 0..modes.count {
                 for k in 0..modes.count {
