@@ -1,6 +1,6 @@
 //! What can be typed after `cargo ahv`.
 
-use crate::own::Own;
+use crate::own_vehicle::OwnVehicle;
 use clap::{Args, Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
@@ -85,7 +85,7 @@ pub struct Package {
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
     #[command(flatten)]
-    pub own: Own,
+    pub own_vehicle: OwnVehicle,
 }
 
 /// Fly a manoeuvre with the FMU; write the time history as CSV and as a figure
@@ -129,7 +129,7 @@ pub struct Fly {
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,
     #[command(flatten)]
-    pub own: Own,
+    pub own_vehicle: OwnVehicle,
 }
 
 /// Parameters given on the command line.
@@ -156,7 +156,7 @@ pub struct Analyse {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub own: Own,
+    pub own_vehicle: OwnVehicle,
 }
 
 /// Frequencies, damping and slosh displacements of the kept modes

@@ -4,9 +4,9 @@ use crate::panels::Panel;
 use crate::record::Record;
 
 /// Of the smallest range that is shown: a signal that moves less is constant.
-const STILL: f64 = 1e-6;
+const MIN_RELATIVE_RANGE: f64 = 1e-6;
 /// Ups and downs over the height of the panel beyond which dashes say nothing.
-const WINDING: f64 = 60.0;
+const MAX_TRAVEL_IN_HEIGHTS: f64 = 60.0;
 
 /// A curve in the unit of its panel.
 pub struct Curve {
@@ -27,7 +27,7 @@ impl Curve {
             let points = record.values(0).zip(record.values(column).map(value)).collect();
             let curve = Self { number, label, points };
             let [min, max] = curve.range();
-            (all || max - min > STILL * panel.least).then_some(curve)
+            (all || max - min > MIN_RELATIVE_RANGE * panel.min_half_range).then_some(curve)
         };
         panel.curves.iter().enumerate().filter_map(curve).collect()
     }
@@ -40,7 +40,7 @@ impl Curve {
 
     /// At most four points in each of so many columns of pixels: the first, the last and both
     /// extremes, so the picture is that of all points.
-    pub fn thin(&mut self, columns: usize) {
+    pub fn decimate(&mut self, columns: usize) {
         let (points, count) = (&self.points, self.points.len());
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
         if count <= 4 * columns {
@@ -69,7 +69,7 @@ impl Curve {
     /// that fills the panel is solid too.
     pub fn dashes(&self, height: f64) -> Option<(u32, u32)> {
         let way: f64 = self.points.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).sum();
-        if way > WINDING * height { None } else { dashes(self.number) }
+        if way > MAX_TRAVEL_IN_HEIGHTS * height { None } else { dashes(self.number) }
     }
 }
 
@@ -89,14 +89,14 @@ mod tests {
         points[123_456].1 = 7.0;
         points[987_654].1 = -3.0;
         let mut curve = Curve { number: 0, label: "", points };
-        curve.thin(600);
+        curve.decimate(600);
         assert!(curve.points.len() <= 2400, "{}", curve.points.len());
         assert_eq!(curve.range(), [-3.0, 7.0]);
         assert!(curve.points.contains(&(123_456.0, 7.0)));
         assert_eq!((curve.points[0].0, curve.points[curve.points.len() - 1].0), (0.0, 999_999.0));
         assert!(curve.points.is_sorted_by(|a, b| a.0 < b.0));
         let before = curve.points.clone();
-        curve.thin(600);
+        curve.decimate(600);
         assert_eq!(curve.points, before, "few points stay as they are");
     }
 

@@ -1,7 +1,7 @@
 //! Writes modelDescription.xml from the table of variables.
 
 use crate::cli::Describe;
-use crate::workspace::{TEXT, read_text, root, shown, write};
+use crate::workspace::{MAX_TEXT_BYTES, read_text, root, shown, write};
 use ahv::flight::Setup;
 use anyhow::{Result, bail};
 use fmi_model::Model;
@@ -16,10 +16,10 @@ pub fn run(options: &Describe) -> Result<()> {
     let expected = xml()?;
     if !options.check {
         write(file, expected)?;
-        say!("{}: {} variables", shown(file), Setup::VARIABLES.len())?;
+        outln!("{}: {} variables", shown(file), Setup::VARIABLES.len())?;
         return Ok(());
     }
-    let found = read_text(file, TEXT)?;
+    let found = read_text(file, MAX_TEXT_BYTES)?;
     if found != expected {
         let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
         bail!(
@@ -31,7 +31,7 @@ pub fn run(options: &Describe) -> Result<()> {
             expected.lines().nth(line).unwrap_or("(end of file)").trim(),
         );
     }
-    say!("{} is up to date", shown(file))?;
+    outln!("{} is up to date", shown(file))?;
     Ok(())
 }
 

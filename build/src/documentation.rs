@@ -1,6 +1,6 @@
 //! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
 
-use crate::workspace::{TEXT, read_text, root};
+use crate::workspace::{MAX_TEXT_BYTES, read_text, root};
 use ahv::flight::{Flight, Setup};
 use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
@@ -140,7 +140,7 @@ fn plain(value: f64) -> String {
 
 /// The changelog without its title, one level down.
 fn changes() -> Result<String> {
-    let text = read_text(&root().join("CHANGELOG.md"), TEXT)?;
+    let text = read_text(&root().join("CHANGELOG.md"), MAX_TEXT_BYTES)?;
     let text = text.split_once("\n## ").map_or("", |(_, versions)| versions);
     let text = format!("## {text}").replace("\n## ", "\n### ");
     let mut page = String::new();

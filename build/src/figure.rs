@@ -12,9 +12,9 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The PNG is drawn this much larger, ...
-const DRAWN: u32 = 4;
+const DRAWING_SCALE: u32 = 4;
 /// ... and averaged over squares of this size: the backend does not smooth lines itself.
-const AVERAGED: u32 = 2;
+const AVERAGING_SQUARE: u32 = 2;
 
 pub const FONT: &str = "sans-serif";
 /// Blue, vermillion, green, reddish purple and orange of Okabe and Ito's palette, which
@@ -46,17 +46,21 @@ pub fn files(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<Fi
         .map_err(|_| anyhow!("the built-in font cannot be read"))?;
     let (svg, png) = (stem.with_extension("svg"), stem.with_extension("png"));
     // Backends know whole pixels only, so both drawings are large and shown smaller.
-    let (width, height) = (size.0 * DRAWN, size.1 * DRAWN);
+    let (width, height) = (size.0 * DRAWING_SCALE, size.1 * DRAWING_SCALE);
     let mut text = String::new();
-    draw(&SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(), drawing, DRAWN)?;
+    draw(
+        &SVGBackend::with_string(&mut text, (width, height)).into_drawing_area(),
+        drawing,
+        DRAWING_SCALE,
+    )?;
     let drawn = format!("width=\"{width}\" height=\"{height}\"");
     let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
     let text = text.replacen(&drawn, &shown, 1);
 
     let mut pixels = vec![0; width as usize * height as usize * 3];
     let backend = BitMapBackend::with_buffer(&mut pixels, (width, height));
-    draw(&backend.into_drawing_area(), drawing, DRAWN)?;
-    let pixels = raster::png(&pixels, width, AVERAGED)?;
+    draw(&backend.into_drawing_area(), drawing, DRAWING_SCALE)?;
+    let pixels = raster::png(&pixels, width, AVERAGING_SQUARE)?;
     Ok(Files::from([(svg, text.into_bytes()), (png, pixels)]))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::cli::Fly;
 use crate::fmu::Fmu;
-use crate::hints::hints;
+use crate::input_warnings::input_warnings;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::{Instance, status_name};
 use crate::model_description::{Causality, ModelDescription, Variable};
@@ -11,7 +11,7 @@ use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
 use crate::workspace::{Files, can_write, root, shown, target, write_together};
-use crate::{package, pilot, plot};
+use crate::{package, plot, simulation};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -22,8 +22,8 @@ pub const STEP: f64 = 0.01;
 pub fn run(options: &Fly) -> Result<()> {
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None if options.host_only => package::fresh(Targets::Host)?,
-        None => package::fresh(Targets::Present)?,
+        None if options.host_only => package::build_default(Targets::Host)?,
+        None => package::build_default(Targets::AsExisting)?,
     };
     let fmu = Fmu::open(&file)?;
     let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
@@ -37,9 +37,9 @@ pub fn run(options: &Fly) -> Result<()> {
     let input =
         options.input.clone().unwrap_or_else(|| root().join("examples/elevator_doublet.csv"));
     let manoeuvre = Manoeuvre::read(&input, model)?;
-    let points = pilot::communication_points(step, stop, manoeuvre.times())?;
-    for hint in hints(&manoeuvre, &shown(&input), stop) {
-        note!("hint: {hint}");
+    let points = simulation::communication_points(step, stop, manoeuvre.times())?;
+    for warning in input_warnings(&manoeuvre, &shown(&input), stop) {
+        errln!("warning: {warning}");
     }
 
     let mut instance = Instance::new(&fmu)?;
@@ -50,9 +50,9 @@ pub fn run(options: &Fly) -> Result<()> {
     }
     instance.set_up(0.0, stop, tolerance)?;
     let recorded = model.with(Causality::Input).chain(model.with(Causality::Output));
-    let flown = pilot::fly(&mut instance, &manoeuvre, recorded, &points)?;
+    let flown = simulation::run(&mut instance, &manoeuvre, recorded, &points)?;
     let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
-    if flown.discarded.is_none() {
+    if flown.discard_reason.is_none() {
         instance.terminate()?;
     }
 
@@ -61,23 +61,23 @@ pub fn run(options: &Fly) -> Result<()> {
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
     files.extend(plot::figures(&flown.record, &title, &directory)?);
     write_together(&files)?;
-    say!("FMU          {}", shown(&file))?;
-    say!("inputs       {}", shown(&input))?;
+    outln!("FMU          {}", shown(&file))?;
+    outln!("inputs       {}", shown(&input))?;
     let [duration, steps] = [stop, step].map(short);
-    say!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
-    say!("set          {}", set_summary(&settings))?;
-    say!("\nCalculated at initialisation")?;
-    put!("{}", table(&calculated))?;
-    say!("\nLargest deviations from the start")?;
-    put!("{}", deviations(model, &flown.record))?;
+    outln!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
+    outln!("set          {}", set_summary(&settings))?;
+    outln!("\nCalculated at initialisation")?;
+    out!("{}", table(&calculated))?;
+    outln!("\nLargest deviations from the start")?;
+    out!("{}", deviations(model, &flown.record))?;
     print_messages(&instance)?;
-    say!("")?;
+    outln!("")?;
     for file in files.keys() {
-        say!("wrote        {}", shown(file))?;
+        outln!("wrote        {}", shown(file))?;
     }
     let end = flown.record.rows.last().map_or(0.0, |row| row[0]);
-    say!("speed        {:.0} times real time", end / flown.spent.as_secs_f64())?;
-    match flown.discarded {
+    outln!("speed        {:.0} times real time", end / flown.step_time.as_secs_f64())?;
+    match flown.discard_reason {
         None => Ok(()),
         Some(reason) => bail!("the flight ended at {} s of {stop} s: {reason}", number(end)),
     }
@@ -153,10 +153,10 @@ fn deviations(model: &ModelDescription, record: &Record) -> String {
 fn print_messages(instance: &Instance) -> Result<()> {
     let messages = instance.messages();
     if !messages.is_empty() {
-        say!("\nMessages of the FMU")?;
+        outln!("\nMessages of the FMU")?;
     }
     for message in messages {
-        say!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
+        outln!("  {} ({}): {}", status_name(message.status), message.category, message.text)?;
     }
     Ok(())
 }

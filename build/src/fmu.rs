@@ -2,7 +2,7 @@
 
 use crate::model_description::ModelDescription;
 use crate::package::{Binary, host};
-use crate::workspace::{BINARY, read, shown, write};
+use crate::workspace::{MAX_BINARY_BYTES, read, shown, write};
 use anyhow::{Context, Result, bail};
 use std::io::{Cursor, Read};
 use std::path::{Component, Path, PathBuf};
@@ -10,11 +10,11 @@ use tempfile::TempDir;
 use zip::ZipArchive;
 
 /// Most files in an FMU; those with sources and documentation have hundreds.
-const ENTRIES: usize = 10_000;
+const MAX_ENTRIES: usize = 10_000;
 /// Most bytes that all files of an FMU unpack to.
-const UNPACKED: u64 = 2 * BINARY;
+const MAX_UNPACKED_BYTES: u64 = 2 * MAX_BINARY_BYTES;
 /// Most bytes of a description; thousands of variables take a few million.
-const DESCRIPTION: u64 = 50_000_000;
+const MAX_DESCRIPTION_BYTES: u64 = 50_000_000;
 
 /// An unpacked FMU. The directory goes when this value does.
 pub struct Fmu {
@@ -28,15 +28,15 @@ impl Fmu {
     /// Unpacks a file and reads its description.
     pub fn open(file: &Path) -> Result<Self> {
         let name = shown(file);
-        let content = read(file, BINARY)?;
+        let content = read(file, MAX_BINARY_BYTES)?;
         let directory = TempDir::with_prefix("fmu-")?;
-        unpack(&content, directory.path(), [ENTRIES as u64, UNPACKED])
+        unpack(&content, directory.path(), [MAX_ENTRIES as u64, MAX_UNPACKED_BYTES])
             .with_context(|| format!("{name} is not an FMU"))?;
         let xml = directory.path().join("modelDescription.xml");
         if !xml.exists() {
             bail!("{name} is not an FMU: it has no modelDescription.xml");
         }
-        let xml = read(&xml, DESCRIPTION).with_context(|| name.clone())?;
+        let xml = read(&xml, MAX_DESCRIPTION_BYTES).with_context(|| name.clone())?;
         let Ok(xml) = String::from_utf8(xml) else {
             bail!("{name}: modelDescription.xml is not a text in UTF-8");
         };
@@ -58,7 +58,7 @@ impl Fmu {
             bail!("{name} has no binary for this machine: {binary} is not in it");
         }
         // What only looks like a library may end the process that loads it.
-        Binary::parse(&read(&path, BINARY)?)
+        Binary::parse(&read(&path, MAX_BINARY_BYTES)?)
             .and_then(|found| found.is_for(host))
             .with_context(|| format!("{name}: {binary}"))?;
         Ok(Self { directory, binary: path, model })

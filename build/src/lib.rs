@@ -3,9 +3,9 @@
 #![allow(missing_docs)]
 
 #[macro_use]
-pub mod say;
+pub mod console;
 
-pub mod abuse;
+pub mod abi_stress;
 pub mod cli;
 pub mod curve;
 pub mod describe;
@@ -13,17 +13,16 @@ pub mod documentation;
 pub mod figure;
 pub mod fly;
 pub mod fmu;
-pub mod hints;
+pub mod input_warnings;
 pub mod licenses;
 pub mod manoeuvre;
 pub mod master;
 mod masters;
 pub mod model_description;
 pub mod modes;
-pub mod own;
+pub mod own_vehicle;
 pub mod package;
 pub mod panels;
-pub mod pilot;
 pub mod plot;
 pub mod poles;
 pub mod python;
@@ -31,6 +30,7 @@ pub mod raster;
 pub mod record;
 pub mod research;
 pub mod settings;
+pub mod simulation;
 pub mod table;
 pub mod test;
 pub mod trim;

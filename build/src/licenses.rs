@@ -1,6 +1,6 @@
 //! The licences of everything that is inside the library.
 
-use crate::workspace::{TEXT, cargo, read, root};
+use crate::workspace::{MAX_TEXT_BYTES, cargo, read, root};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -31,7 +31,10 @@ pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
     for entry in entries {
         let entry = entry?;
         let name = entry.file_name().to_string_lossy().into_owned();
-        files.insert(format!("documentation/licenses/runtime/{name}"), read(&entry.path(), TEXT)?);
+        files.insert(
+            format!("documentation/licenses/runtime/{name}"),
+            read(&entry.path(), MAX_TEXT_BYTES)?,
+        );
     }
     for linked in linked_crates()? {
         let Some(directory) = linked.manifest_path.parent() else { continue };
@@ -55,7 +58,7 @@ fn in_directory(directory: &Path) -> Result<Vec<(String, Vec<u8>)>> {
             .iter()
             .any(|start| upper.starts_with(start));
         if wanted && entry.path().is_file() {
-            found.push((name, read(&entry.path(), TEXT)?));
+            found.push((name, read(&entry.path(), MAX_TEXT_BYTES)?));
         }
     }
     Ok(found)

@@ -1,18 +1,20 @@
 //! `cargo ahv`.
 
 use ahv_tool::cli::{Cli, Command};
-use ahv_tool::{describe, fly, modes, own, package, poles, research, say, test, trim, workspace};
+use ahv_tool::{
+    console, describe, fly, modes, own_vehicle, package, poles, research, test, trim, workspace,
+};
 use anyhow::Result;
 use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    say::finish(Cli::try_parse().map(|Cli { command }| run(&command)))
+    console::exit_code(Cli::try_parse().map(|Cli { command }| run(&command)))
 }
 
 fn run(command: &Command) -> Result<ExitCode> {
     workspace::locate()?;
-    if let Some(code) = own::run(command)? {
+    if let Some(code) = own_vehicle::run(command)? {
         return Ok(code);
     }
     match command {

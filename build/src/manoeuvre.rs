@@ -7,11 +7,11 @@ mod rows;
 mod text;
 
 use crate::model_description::{ModelDescription, Variable};
-use crate::workspace::{TEXT, read, shown};
+use crate::workspace::{MAX_TEXT_BYTES, read, shown};
 use anyhow::Result;
 use std::path::Path;
 
-/// What the pilot does.
+/// What the simulation does.
 #[derive(Debug)]
 pub struct Manoeuvre<'a> {
     pub inputs: Vec<&'a Variable>,
@@ -32,7 +32,7 @@ pub struct Row {
 
 /// How the inputs go on from an instant.
 #[derive(Debug, PartialEq)]
-pub struct Course {
+pub struct Interpolated {
     pub values: Vec<f64>,
     /// Their units per s, until the next row.
     pub slopes: Vec<f64>,
@@ -41,7 +41,7 @@ pub struct Course {
 impl<'a> Manoeuvre<'a> {
     /// Reads a file.
     pub fn read(path: &Path, model: &'a ModelDescription) -> Result<Self> {
-        Self::parse(&read(path, TEXT)?, &shown(path), model)
+        Self::parse(&read(path, MAX_TEXT_BYTES)?, &shown(path), model)
     }
 
     /// Reads the bytes of a file; `file` is its name in messages.
@@ -64,20 +64,20 @@ impl<'a> Manoeuvre<'a> {
     }
 
     /// How the inputs go on: from the values after a jump. None without a row.
-    pub fn after(&self, time: f64) -> Option<Course> {
+    pub fn after(&self, time: f64) -> Option<Interpolated> {
         let next = self.rows.partition_point(|row| row.time <= time);
         let (last, next) = match (next.checked_sub(1), self.rows.get(next)) {
             (Some(last), Some(next)) => (&self.rows[last], next),
             (last, next) => {
                 let values = last.map(|last| &self.rows[last]).or(next)?.values.clone();
-                return Some(Course { slopes: vec![0.0; values.len()], values });
+                return Some(Interpolated { slopes: vec![0.0; values.len()], values });
             }
         };
         let change = |(a, b): (&f64, &f64)| (b - a) / (next.time - last.time);
         let slopes: Vec<_> = last.values.iter().zip(&next.values).map(change).collect();
         let value = |(a, slope): (&f64, &f64)| a + slope * (time - last.time);
         let values = last.values.iter().zip(&slopes).map(value).collect();
-        Some(Course { values, slopes })
+        Some(Interpolated { values, slopes })
     }
 }
 

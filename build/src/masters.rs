@@ -1,8 +1,8 @@
 //! The FMU in masters beyond FMPy, each with packages of its own: tests/masters.
 
+use crate::console;
 use crate::package::{self, Targets};
 use crate::python::environment;
-use crate::say;
 use crate::workspace::root;
 use anyhow::{Context, Result, bail};
 use std::fs;
@@ -22,10 +22,10 @@ pub fn fly() -> Result<()> {
         let result = tested(&name, &folder);
         let seconds = started.elapsed().as_secs_f64();
         match result {
-            Ok(outcome) => note!("  {name:<10} passed {seconds:6.1} s  {outcome}"),
+            Ok(outcome) => errln!("  {name:<10} passed {seconds:6.1} s  {outcome}"),
             Err(error) => {
-                note!("  {name:<10} FAILED {seconds:6.1} s");
-                note!("{}", say::causes(&error));
+                errln!("  {name:<10} FAILED {seconds:6.1} s");
+                errln!("{}", console::error_chain(&error));
                 failed.push(name);
             }
         }

@@ -53,7 +53,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         }
     };
     if *elements {
-        say!("{}", solved_elements(&setup.parameters.options)?)?;
+        outln!("{}", solved_elements(&setup.parameters.options)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;
@@ -76,12 +76,12 @@ pub fn run(options: &cli::Modes) -> Result<()> {
                 })
             })
             .collect();
-        say!("{:#}", json!({ "configuration": configuration(&setup), "modes": list }))?;
+        outln!("{:#}", json!({ "configuration": configuration(&setup), "modes": list }))?;
         return Ok(());
     }
-    say!("Modes, {}", configuration(&setup))?;
+    outln!("Modes, {}", configuration(&setup))?;
     if count == 0 {
-        say!("  none: the vehicle is rigid")?;
+        outln!("  none: the vehicle is rigid")?;
         return Ok(());
     }
     let mut rows = vec![row([
@@ -101,15 +101,15 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         cells.push(format!("{:.2} %", 100.0 * modes.beam_energy_share[i]));
         rows.push(cells);
     }
-    put!("{}", table(&rows))?;
-    say!("  slosh: displacement of the sloshing mass against its tank per unit of the mode")?;
-    say!("  beam energy: share of the strain energy in the beam; the rest is in the springs")?;
-    say!("\nDamping matrix, 1/s")?;
+    out!("{}", table(&rows))?;
+    outln!("  slosh: displacement of the sloshing mass against its tank per unit of the mode")?;
+    outln!("  beam energy: share of the strain energy in the beam; the rest is in the springs")?;
+    outln!("\nDamping matrix, 1/s")?;
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {
         let cells = damping(i).into_iter().map(number);
         rows.push(std::iter::once(name(i)).chain(cells).collect());
     }
-    put!("{}", table(&rows))?;
+    out!("{}", table(&rows))?;
     Ok(())
 }

@@ -4,15 +4,15 @@ mod binary;
 mod cross_check;
 mod library;
 mod platform;
-mod related;
+mod reference_experiment;
 mod terminals;
 mod windows;
 
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{BINARY, can_write, read, root, shown, target, write};
-use crate::{documentation, licenses, say};
+use crate::workspace::{MAX_BINARY_BYTES, can_write, read, root, shown, target, write};
+use crate::{console, documentation, licenses};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
@@ -32,7 +32,7 @@ pub enum Targets {
     /// This machine's, with this machine's C library.
     Host,
     /// Those of the file that is there, or this machine's: what a flight needs.
-    Present,
+    AsExisting,
     /// As many as this machine can build for.
     Possible,
     /// A missing one is an error.
@@ -51,7 +51,7 @@ struct Library {
 struct Libraries {
     found: Vec<Library>,
     /// Built elsewhere.
-    foreign: bool,
+    prebuilt: bool,
     /// What could not be built as it should be, why, and what to do.
     missing: Vec<String>,
 }
@@ -67,12 +67,12 @@ pub fn run(options: &Package) -> Result<()> {
     if options.library.is_empty() {
         return build(&output, targets);
     }
-    let given = options.library.iter().map(|text| platform::given(text));
+    let libraries_given = options.library.iter().map(|text| platform::parse_library_option(text));
     let mut libraries = Libraries::default();
-    for library in given {
+    for library in libraries_given {
         libraries.add(library?)?;
     }
-    libraries.foreign = true;
+    libraries.prebuilt = true;
     package(libraries, &output)
 }
 
@@ -80,7 +80,7 @@ pub fn run(options: &Package) -> Result<()> {
 pub fn build(output: &Path, targets: Targets) -> Result<()> {
     let libraries = match targets {
         Targets::Host => Libraries::host()?,
-        Targets::Present => Libraries::build(has_windows(output))?,
+        Targets::AsExisting => Libraries::build(has_windows(output))?,
         Targets::Possible | Targets::All => Libraries::build(true)?,
     };
     if targets == Targets::All && !libraries.missing.is_empty() {
@@ -94,22 +94,22 @@ fn package(libraries: Libraries, output: &Path) -> Result<()> {
     let mut files = contents(&libraries.found)?;
     let host = host()?;
     if libraries.found.iter().any(|library| library.platform == host) {
-        files.extend(reference(&files, libraries.foreign)?);
+        files.extend(reference(&files, libraries.prebuilt)?);
     }
     write_fmu(files, output)?;
     for Library { platform, binary, .. } in &libraries.found {
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
-        say!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "))?;
+        outln!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "))?;
     }
     for text in libraries.missing {
-        say!("  {text}")?;
+        outln!("  {text}")?;
     }
     Ok(())
 }
 
 /// The FMU at its usual place, built anew.
-pub fn fresh(targets: Targets) -> Result<PathBuf> {
+pub fn build_default(targets: Targets) -> Result<PathBuf> {
     let output = default_output(targets);
     build(&output, targets)?;
     Ok(output)
@@ -125,7 +125,7 @@ fn has_windows(file: &Path) -> bool {
 
 /// Names of the files in a zip.
 fn names(file: &Path) -> Result<Vec<String>> {
-    let mut zip = ZipArchive::new(Cursor::new(read(file, BINARY)?))?;
+    let mut zip = ZipArchive::new(Cursor::new(read(file, MAX_BINARY_BYTES)?))?;
     let all = 0..zip.len();
     all.map(|index| Ok(zip.by_index_raw(index)?.name()?.into_owned())).collect()
 }
@@ -147,7 +147,7 @@ impl Libraries {
         if self.found.iter().any(|known| known.platform == platform) {
             bail!("there are two libraries for {}", platform.name);
         }
-        let content = read(&file, BINARY)?;
+        let content = read(&file, MAX_BINARY_BYTES)?;
         let binary = Binary::parse(&content).with_context(|| shown(&file))?;
         binary.check(platform).with_context(|| shown(&file))?;
         self.found.push(Library { platform, content, binary });
@@ -186,7 +186,7 @@ impl Libraries {
                      the linker of zig is needed: {}",
                     glibc.0,
                     glibc.1,
-                    say::causes(&error)
+                    console::error_chain(&error)
                 ));
             }
         }
@@ -200,7 +200,7 @@ impl Libraries {
                 let library = library::for_windows(toolchain)?;
                 libraries.add((WINDOWS, library))?.check_everywhere(WINDOWS)?;
             }
-            Err(error) => libraries.missing.push(say::causes(&error)),
+            Err(error) => libraries.missing.push(console::error_chain(&error)),
         }
         Ok(libraries)
     }
@@ -228,26 +228,26 @@ fn contents(libraries: &[Library]) -> Result<Files> {
 
 /// A picture that the FMU carries.
 fn icon(name: &str) -> Result<Vec<u8>> {
-    read(&root().join(format!("build/icons/{name}.png")), BINARY)
+    read(&root().join(format!("build/icons/{name}.png")), MAX_BINARY_BYTES)
 }
 
 /// What comes out when the FMU is flown; it is flown as it will be packaged.
-fn reference(files: &Files, foreign: bool) -> Result<Files> {
+fn reference(files: &Files, prebuilt: bool) -> Result<Files> {
     let directory = TempDir::with_prefix("fmu-")?;
     let file = directory.path().join("ahv.fmu");
     write(&file, zip(files)?)?;
-    if foreign {
-        survives(&file)?;
+    if prebuilt {
+        run_in_child_process(&file)?;
     }
     let fmu = Fmu::open(&file)?;
     let mut found = cross_check::fly_reference(&fmu)?;
-    found.extend(related::files(&fmu.model)?);
+    found.extend(reference_experiment::files(&fmu.model)?);
     Ok(found)
 }
 
 /// A library from elsewhere may end the process that flies it, so another process tries it first. What
 /// goes wrong in any other way the reference flight tells.
-fn survives(file: &Path) -> Result<()> {
+fn run_in_child_process(file: &Path) -> Result<()> {
     let results = TempDir::with_prefix("fmu-")?;
     let mut fly = Command::new(env::current_exe()?);
     fly.args(["fly", "--stop", "0.1", "--fmu"]).arg(file).arg("--output").arg(results.path());
@@ -264,9 +264,9 @@ fn write_fmu(files: Files, output: &Path) -> Result<()> {
     write(output, &bytes)?;
     let platforms: Vec<_> =
         files.keys().filter_map(|name| name.strip_prefix("binaries/")?.split('/').next()).collect();
-    say!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
+    outln!("{}: {} kB, {}", shown(output), bytes.len().div_ceil(1000), platforms.join(", "))?;
     let digest: String =
         hmac_sha256::Hash::hash(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
-    say!("  sha256 {digest}")?;
+    outln!("  sha256 {digest}")?;
     Ok(())
 }

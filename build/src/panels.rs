@@ -14,10 +14,11 @@ pub struct Panel {
     /// Show the deviation from the first value.
     pub deviation: bool,
     /// Half of the smallest range shown, so that rounding noise stays flat.
-    pub least: f64,
+    pub min_half_range: f64,
 }
 
-const PANEL: Panel = Panel { title: "", curves: &[], factor: 1.0, deviation: false, least: 1e-3 };
+const PANEL: Panel =
+    Panel { title: "", curves: &[], factor: 1.0, deviation: false, min_half_range: 1e-3 };
 
 /// In reading order: what is done to the vehicle, then what it does.
 pub const PANELS: [Panel; 9] = [
@@ -25,19 +26,19 @@ pub const PANELS: [Panel; 9] = [
         title: "Elevator in effect δe, deg",
         curves: &[("delta_e_effective", "")],
         factor: DEGREES,
-        least: 0.1,
+        min_half_range: 0.1,
         ..PANEL
     },
     Panel {
         title: "Fuel ratio in effect φ",
         curves: &[("phi_effective", "")],
-        least: 0.01,
+        min_half_range: 0.01,
         ..PANEL
     },
     Panel {
         title: "Gust, m/s",
         curves: &[("w_gust", "upwards"), ("u_gust", "tail wind")],
-        least: 0.1,
+        min_half_range: 0.1,
         ..PANEL
     },
     Panel { title: "Airspeed V − V(0), m/s", curves: &[("V", "")], deviation: true, ..PANEL },
@@ -56,13 +57,13 @@ pub const PANELS: [Panel; 9] = [
         curves: &[("eta1", "η1"), ("eta2", "η2"), ("eta3", "η3")],
         factor: MILLIMETRES,
         deviation: true,
-        least: 0.05,
+        min_half_range: 0.05,
     },
     Panel {
         title: "Slosh s − s(0), mm",
         curves: &[("slosh1", "fore"), ("slosh2", "aft")],
         factor: MILLIMETRES,
         deviation: true,
-        least: 0.05,
+        min_half_range: 0.05,
     },
 ];

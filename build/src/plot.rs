@@ -13,32 +13,33 @@ use std::path::Path;
 
 // Sizes in pixels at scale one. The text is large, so that it can be read on a phone.
 const WIDTH: u32 = 800;
-const ROW: u32 = 210;
-const HEAD: u32 = 30;
+const ROW_HEIGHT: u32 = 210;
+const TITLE_HEIGHT: u32 = 30;
 /// Of a line of the title.
-const LINE: u32 = 24;
+const LINE_HEIGHT: u32 = 24;
 const MARGIN: u32 = 6;
 /// Room for the numbers of the vertical axis.
-const LEFT: u32 = 66;
+const AXIS_WIDTH: u32 = 66;
 /// Below the panels.
-const TIME: u32 = 22;
-const TEXT: u32 = 16;
+const TIME_AXIS_HEIGHT: u32 = 22;
+const TEXT_SIZE: u32 = 16;
 /// Most characters in a line of the title.
-const CHARACTERS: usize = 80;
+const MAX_TITLE_CHARACTERS: usize = 80;
 /// Most labels on a vertical axis.
-const LABELS: usize = 6;
+const MAX_LABELS: usize = 6;
 /// Columns of pixels of the PNG for one at scale one.
-const FINE: usize = 2;
+const PNG_PIXELS_PER_PIXEL: usize = 2;
 
 /// flight.svg and flight.png.
 pub fn figures(record: &Record, title: &str, directory: &Path) -> Result<Files> {
-    let title = lines(title, CHARACTERS);
+    let title = lines(title, MAX_TITLE_CHARACTERS);
     let mut panels = moving(record, false);
     if panels.is_empty() {
         panels = moving(record, true);
     }
     let rows = panels.len().div_ceil(2) as u32;
-    let height = 2 * MARGIN + LINE * title.len() as u32 + ROW * rows + TIME;
+    let height =
+        2 * MARGIN + LINE_HEIGHT * title.len() as u32 + ROW_HEIGHT * rows + TIME_AXIS_HEIGHT;
     figure::files(&Flight { title, panels }, (WIDTH, height), &directory.join("flight"))
 }
 
@@ -48,7 +49,9 @@ fn moving(record: &Record, all: bool) -> Vec<(Panel, Vec<Curve>)> {
         .into_iter()
         .map(|panel| {
             let mut curves = Curve::of(&panel, record, all);
-            curves.iter_mut().for_each(|curve| curve.thin(FINE * WIDTH as usize));
+            curves
+                .iter_mut()
+                .for_each(|curve| curve.decimate(PNG_PIXELS_PER_PIXEL * WIDTH as usize));
             (panel, curves)
         })
         .filter(|(_, curves)| !curves.is_empty())
@@ -79,16 +82,16 @@ struct Flight {
 impl Drawing for Flight {
     fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B> {
         let inner = area.margin(MARGIN * scale, MARGIN * scale, MARGIN * scale, MARGIN * scale);
-        let text = (FONT, TEXT * scale).into_font().color(&BLACK);
+        let text = (FONT, TEXT_SIZE * scale).into_font().color(&BLACK);
         let text = text.pos(Pos::new(HPos::Left, VPos::Center));
         for (number, line) in self.title.iter().enumerate() {
-            let middle = (number as u32 * LINE + LINE / 2) * scale;
+            let middle = (number as u32 * LINE_HEIGHT + LINE_HEIGHT / 2) * scale;
             inner.draw_text(line.trim_end(), &text, ((MARGIN * scale) as i32, middle as i32))?;
         }
-        let (_, body) = inner.split_vertically(LINE * self.title.len() as u32 * scale);
+        let (_, body) = inner.split_vertically(LINE_HEIGHT * self.title.len() as u32 * scale);
         let rows = self.panels.chunks(2);
         let last = rows.len() - 1;
-        let cuts = (1..=last as u32).map(|row| (ROW * row * scale) as i32);
+        let cuts = (1..=last as u32).map(|row| (ROW_HEIGHT * row * scale) as i32);
         let cells = body.split_by_breakpoints([0; 0], cuts.collect::<Vec<_>>());
         for (number, (row, cell)) in rows.zip(&cells).enumerate() {
             // One that is left over has the whole width.
@@ -107,23 +110,26 @@ fn draw_panel<B: DrawingBackend>(
     scale: u32,
     last: bool,
 ) -> Drawn<B> {
-    let (title, body) = area.split_vertically(HEAD * scale);
+    let (title, body) = area.split_vertically(TITLE_HEIGHT * scale);
     draw_head(&title, panel, curves, scale)?;
-    let [min, max] = range(curves, panel.least);
+    let [min, max] = range(curves, panel.min_half_range);
     let end = curves.iter().flat_map(|curve| curve.points.last()).map(|point| point.0);
     let end = end.fold(0.0, f64::max);
 
     let mut chart = ChartBuilder::on(&body)
         .margin_right(14 * scale)
-        .set_label_area_size(LabelAreaPosition::Left, LEFT * scale)
-        .set_label_area_size(LabelAreaPosition::Bottom, if last { 22 + TIME } else { 22 } * scale)
+        .set_label_area_size(LabelAreaPosition::Left, AXIS_WIDTH * scale)
+        .set_label_area_size(
+            LabelAreaPosition::Bottom,
+            if last { 22 + TIME_AXIS_HEIGHT } else { 22 } * scale,
+        )
         .build_cartesian_2d(0.0..if end > 0.0 { end } else { 1.0 }, min..max)?;
-    let decimals = decimals(min..max, LABELS);
-    let text = (FONT, TEXT * scale).into_font().color(&BLACK);
+    let decimals = decimals(min..max, MAX_LABELS);
+    let text = (FONT, TEXT_SIZE * scale).into_font().color(&BLACK);
     chart
         .configure_mesh()
         .x_labels(8)
-        .y_labels(LABELS)
+        .y_labels(MAX_LABELS)
         .max_light_lines(0)
         .bold_line_style(GRID.stroke_width(scale))
         .axis_style(FRAME.stroke_width(scale))
@@ -158,7 +164,7 @@ fn draw_head<B: DrawingBackend>(
     let (width, height) = area.dim_in_pixel();
     let (width, middle, unit) = (width as i32, height as i32 / 2, scale as i32);
     let middle = middle + 4 * unit;
-    let title = (FONT, TEXT * scale).into_font().color(&BLACK);
+    let title = (FONT, TEXT_SIZE * scale).into_font().color(&BLACK);
     let left = title.clone().pos(Pos::new(HPos::Left, VPos::Center));
     area.draw_text(panel.title, &left, (MARGIN as i32 * unit, middle))?;
     if panel.curves.len() < 2 {

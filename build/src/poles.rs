@@ -48,7 +48,7 @@ pub fn run(options: &Poles) -> Result<()> {
     let all = if options.all { linearise_all(options)? } else { vec![linearise(options, None)?] };
     if options.analyse.json {
         let values: Vec<Value> = all.iter().map(as_json).collect();
-        say!("{:#}", Value::from(values))?;
+        outln!("{:#}", Value::from(values))?;
     } else if let [one] = all.as_slice() {
         print_one(one)?;
     } else {
@@ -133,7 +133,7 @@ fn doubling(root: Root) -> String {
 }
 
 fn print_one(linearised: &Linearised) -> Result<()> {
-    say!("Poles, {}, rad/s", linearised.configuration)?;
+    outln!("Poles, {}, rad/s", linearised.configuration)?;
     let mut rows = vec![row(["mode", "pole", "frequency", "damping ratio", "amplitude, s"])];
     for (name, root) in &linearised.poles {
         rows.push(vec![
@@ -144,14 +144,14 @@ fn print_one(linearised: &Linearised) -> Result<()> {
             doubling(*root),
         ]);
     }
-    put!("{}", table(&rows))?;
+    out!("{}", table(&rows))?;
     for (angle, zeros) in ANGLES.into_iter().zip(&linearised.zeros) {
-        say!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
+        outln!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
         let mut rows = vec![row(["", "zero", "frequency"])];
         for (index, root) in zeros.iter().enumerate() {
             rows.push(vec![(index + 1).to_string(), root.text(), number(root.frequency())]);
         }
-        put!("{}", table(&rows))?;
+        out!("{}", table(&rows))?;
     }
     Ok(())
 }
@@ -174,7 +174,7 @@ fn print_side_by_side(all: &[Linearised]) -> Result<()> {
             }
         }
     }
-    say!("Poles, rad/s")?;
+    outln!("Poles, rad/s")?;
     let mut rows = vec![head("mode")];
     for (index, name) in names.iter().enumerate() {
         let before = names[..index].iter().filter(|other| *other == name).count();
@@ -184,9 +184,9 @@ fn print_side_by_side(all: &[Linearised]) -> Result<()> {
         };
         rows.push(std::iter::once(name.to_string()).chain(all.iter().map(cell)).collect());
     }
-    put!("{}", table(&rows))?;
+    out!("{}", table(&rows))?;
     for (output, angle) in ANGLES.into_iter().enumerate() {
-        say!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
+        outln!("\nTransmission zeros from delta_e, phi to V, {angle}, rad/s")?;
         let mut rows = vec![head("")];
         let count = all.iter().map(|one| one.zeros[output].len()).max().unwrap_or(0);
         for index in 0..count {
@@ -197,7 +197,7 @@ fn print_side_by_side(all: &[Linearised]) -> Result<()> {
                 std::iter::once((index + 1).to_string()).chain(all.iter().map(cell)).collect(),
             );
         }
-        put!("{}", table(&rows))?;
+        out!("{}", table(&rows))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Python programs with exactly the locked packages.
 
-use crate::workspace::{TEXT, check, read, root, shown, target, write};
+use crate::workspace::{MAX_TEXT_BYTES, check, read, root, shown, target, write};
 use anyhow::{Context, Result};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -16,15 +16,15 @@ pub struct Environment {
 ///
 /// A copy of the lock, written last, says that the environment is complete.
 pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
-    let wanted = read(lock, TEXT)?;
+    let wanted = read(lock, MAX_TEXT_BYTES)?;
     let directory = target().join(name);
     let stamp = directory.join("requirements.lock");
     let programs = directory.join(if cfg!(windows) { "Scripts" } else { "bin" });
     let python = programs.join(if cfg!(windows) { "python.exe" } else { "python" });
-    if stamp.exists() && python.exists() && read(&stamp, TEXT)? == wanted {
+    if stamp.exists() && python.exists() && read(&stamp, MAX_TEXT_BYTES)? == wanted {
         return Ok(Environment { programs, python });
     }
-    note!("making {} from {}", shown(&directory), shown(lock));
+    errln!("making {} from {}", shown(&directory), shown(lock));
     check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))
         .context("a virtual environment needs Python; on Debian: apt-get install python3-venv")?;
     check(

@@ -4,7 +4,7 @@ use crate::cli::{Describe, Test};
 use crate::package::Targets;
 use crate::python::python;
 use crate::workspace::{cargo, check, root, target, works};
-use crate::{abuse, describe, masters, package, research, say};
+use crate::{abi_stress, console, describe, masters, package, research};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::process::Command;
@@ -37,7 +37,11 @@ const STEPS: [Step; 17] = [
     }),
     ("Rust tests", Always, |_| {
         // The long fuzz has a step of its own.
-        check(cargo().args(["test", "--workspace", "--no-fail-fast"]).env_remove(abuse::SEQUENCES))
+        check(
+            cargo()
+                .args(["test", "--workspace", "--no-fail-fast"])
+                .env_remove(abi_stress::SEQUENCES_VARIABLE),
+        )
     }),
     ("description", Always, |_| describe::run(&Describe { check: true, file: None })),
     ("package", Always, |options| {
@@ -49,16 +53,16 @@ const STEPS: [Step; 17] = [
     ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
     ("other masters", Thorough, |_| masters::fly()),
-    ("C ABI fuzz", Thorough, |_| abuse::fuzz()),
-    ("sanitizer", Thorough, |_| abuse::sanitizer()),
-    ("valgrind", Thorough, |_| abuse::valgrind()),
+    ("C ABI fuzz", Thorough, |_| abi_stress::fuzz()),
+    ("sanitizer", Thorough, |_| abi_stress::sanitizer()),
+    ("valgrind", Thorough, |_| abi_stress::valgrind()),
     ("bench runs", Thorough, |_| bench()),
     (WINDOWS, Thorough, |options| match missing_for_windows() {
         // Programs in one wine start one server: one after the other.
         None => pytest(&["tests/wine", "--numprocesses", "0"]),
         Some(missing) if options.all_targets => bail!("{missing}"),
         Some(missing) => {
-            note!("left out: {missing}");
+            errln!("left out: {missing}");
             Ok(())
         }
     }),
@@ -71,11 +75,11 @@ pub fn run(options: &Test) -> Result<()> {
     let steps: Vec<_> = STEPS.iter().filter(wanted).collect();
     let mut results = Vec::new();
     for (number, (name, _, step)) in steps.iter().enumerate() {
-        note!("\n[{}/{}] {name}", number + 1, steps.len());
+        errln!("\n[{}/{}] {name}", number + 1, steps.len());
         let started = Instant::now();
         let result = step(options);
         if let Err(error) = &result {
-            note!("error: {}", say::causes(error));
+            errln!("error: {}", console::error_chain(error));
         }
         let passed = result.is_ok();
         results.push((name, passed, started.elapsed().as_secs_f64()));
@@ -83,13 +87,13 @@ pub fn run(options: &Test) -> Result<()> {
             break;
         }
     }
-    note!("\nSummary");
+    errln!("\nSummary");
     for (name, passed, seconds) in &results {
         let result = if *passed { "passed" } else { "FAILED" };
-        note!("  {name:<14} {result} {seconds:8.1} s");
+        errln!("  {name:<14} {result} {seconds:8.1} s");
     }
     for (name, ..) in steps.iter().skip(results.len()) {
-        note!("  {name:<14} not run");
+        errln!("  {name:<14} not run");
     }
     let failed: Vec<_> =
         results.iter().filter(|(_, passed, _)| !passed).map(|(name, ..)| **name).collect();
@@ -97,7 +101,9 @@ pub fn run(options: &Test) -> Result<()> {
         bail!("failed: {}", failed.join(", "));
     }
     if !options.thorough {
-        note!("\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough");
+        errln!(
+            "\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough"
+        );
     }
     Ok(())
 }
@@ -145,7 +151,7 @@ fn pytest(arguments: &[&str]) -> Result<()> {
 /// What the tests of the Windows library need and this machine does not have.
 fn missing_for_windows() -> Option<String> {
     if let Err(error) = package::can_build_for_windows() {
-        return Some(say::causes(&error));
+        return Some(console::error_chain(&error));
     }
     (!works("wine", &["--version"]))
         .then(|| "wine runs the library; on Debian: apt-get install wine wine64".to_string())

@@ -79,7 +79,7 @@ pub fn run(options: &Analyse) -> Result<()> {
             })
             .collect::<serde_json::Map<_, _>>();
         let whole = json!({ "configuration": configuration(&setup), "trim": values });
-        say!("{whole:#}")?;
+        outln!("{whole:#}")?;
         return Ok(());
     }
     let mut text = vec![row(["quantity", "value", "unit"])];
@@ -87,7 +87,7 @@ pub fn run(options: &Analyse) -> Result<()> {
         text.push(vec![name.to_string(), number(value * factor), unit.to_string()]);
     }
     let kind = if setup.parameters.trim { "Trimmed flight" } else { "Start, not trimmed" };
-    say!("{kind}, {}; forces per metre of width", configuration(&setup))?;
-    put!("{}", table(&text))?;
+    outln!("{kind}, {}; forces per metre of width", configuration(&setup))?;
+    out!("{}", table(&text))?;
     Ok(())
 }

@@ -3,7 +3,10 @@
 mod files;
 
 use anyhow::{Context, Result, bail};
-pub use files::{BINARY, DATA, Files, TEXT, can_write, read, read_text, write, write_together};
+pub use files::{
+    Files, MAX_BINARY_BYTES, MAX_DATA_BYTES, MAX_TEXT_BYTES, can_write, read, read_text, write,
+    write_together,
+};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -44,7 +47,7 @@ fn search(places: &[PathBuf]) -> Option<PathBuf> {
 }
 
 fn is_root(directory: &Path) -> bool {
-    let manifest = read_text(&directory.join("Cargo.toml"), DATA);
+    let manifest = read_text(&directory.join("Cargo.toml"), MAX_DATA_BYTES);
     let table = manifest.ok().and_then(|text| text.parse::<toml::Table>().ok());
     let name = table.as_ref().and_then(|table| table.get("package")?.get("name")?.as_str());
     name == Some(PACKAGE)

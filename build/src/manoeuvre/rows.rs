@@ -7,7 +7,7 @@ use ahv::short::short;
 use anyhow::{Context, Result, bail};
 
 /// Longest field that a message repeats, characters.
-const QUOTED: usize = 40;
+const MAX_QUOTED_CHARACTERS: usize = 40;
 
 /// Reads a text; `file` is its name in messages. Empty lines and those that start with `#` count for
 /// nothing.
@@ -32,7 +32,7 @@ pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<
         let at = format!("{file}, line {number}");
         let record = record.with_context(|| at.clone())?;
         if record.iter().any(|field| field.contains('\n')) {
-            bail!("{at}: a quotation mark opens and is not closed on this line");
+            bail!("{at}: a quotation decimal_mark opens and is not closed on this line");
         }
         Ok((record, at))
     });
@@ -46,11 +46,11 @@ pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<
     });
     let inputs: Vec<_> = inputs.collect();
     let mut rows: Vec<Row> = Vec::new();
-    let mut mark = None;
+    let mut decimal_mark = None;
     for record in records {
         let (record, at) = record?;
-        let row = row(&record, &at, &columns, &mut mark)?;
-        follows(&row, &rows, &inputs, &at)?;
+        let row = row(&record, &at, &columns, &mut decimal_mark)?;
+        check_sequence(&row, &rows, &inputs, &at)?;
         rows.push(row);
     }
     let ignored = columns.iter().filter(|column| matches!(column.role, Role::Ignored));
@@ -77,7 +77,7 @@ fn delimiter(header: &str) -> u8 {
 
 /// Times do not decrease, no instant has more than a value before and one after it, and what lies
 /// between two rows is a number.
-fn follows(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Result<()> {
+fn check_sequence(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Result<()> {
     let time = row.time;
     match rows {
         [.., last] if time < last.time => bail!(
@@ -109,12 +109,12 @@ fn follows(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Result<()
     }
 }
 
-/// `mark` is the decimal mark of the file, once one was seen.
+/// `decimal_mark` is the decimal decimal_mark of the file, once one was seen.
 fn row(
     record: &csv::StringRecord,
     at: &str,
     columns: &[Column],
-    mark: &mut Option<char>,
+    decimal_mark: &mut Option<char>,
 ) -> Result<Row> {
     let beyond = record.iter().skip(columns.len()).any(|field| !field.is_empty());
     if record.len() < columns.len() || beyond {
@@ -133,15 +133,16 @@ fn row(
     let mut time = 0.0;
     let mut values = Vec::new();
     for (field, column) in record.iter().zip(columns) {
-        let number = |mark: &mut _| {
+        let number = |decimal_mark: &mut _| {
             let at = format!("{at}, column {}", column.name);
-            number(field, mark).with_context(|| at)
+            number(field, decimal_mark).with_context(|| at)
         };
         match column.role {
-            Role::Time => time = number(mark)?,
+            Role::Time => time = number(decimal_mark)?,
             Role::Input { variable, factor, offset } => {
-                let value = (number(mark)? - offset) / factor;
-                within(value, variable).with_context(|| format!("{at}, column {}", column.name))?;
+                let value = (number(decimal_mark)? - offset) / factor;
+                check_range(value, variable)
+                    .with_context(|| format!("{at}, column {}", column.name))?;
                 values.push(value);
             }
             Role::Ignored => {}
@@ -151,7 +152,7 @@ fn row(
 }
 
 /// The FMU would end the flight there.
-fn within(value: f64, variable: &Variable) -> Result<()> {
+fn check_range(value: f64, variable: &Variable) -> Result<()> {
     let [min, max] = variable.range();
     if !(min..=max).contains(&value) {
         let [value, min, max] = [value, min, max].map(short);
@@ -160,9 +161,9 @@ fn within(value: f64, variable: &Variable) -> Result<()> {
     Ok(())
 }
 
-fn number(field: &str, mark: &mut Option<char>) -> Result<f64> {
+fn number(field: &str, decimal_mark: &mut Option<char>) -> Result<f64> {
     if let Some(found) = field.chars().find(|c| matches!(c, '.' | ',')) {
-        let known = *mark.get_or_insert(found);
+        let known = *decimal_mark.get_or_insert(found);
         if known != found {
             bail!("`{field}` has a decimal `{found}` where numbers before have `{known}`");
         }
@@ -173,7 +174,7 @@ fn number(field: &str, mark: &mut Option<char>) -> Result<f64> {
     match field.replace(',', ".").parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
         _ => {
-            let start: String = field.chars().take(QUOTED).collect();
+            let start: String = field.chars().take(MAX_QUOTED_CHARACTERS).collect();
             bail!("`{start}` is not a finite number")
         }
     }
@@ -242,7 +243,7 @@ mod tests {
             ("time,phi\n0,NaN\n", "line 2, column phi: `NaN` is not a finite number"),
             ("time;phi\n0;0.5\n1;1,5\n", "line 3, column phi: `1,5` has a decimal `,` where"),
             ("time;phi\n0;1.000,5\n", "line 2, column phi: `1.000,5` is not a finite number"),
-            ("time,phi\n0,\"1\n2,3\n", "line 2: a quotation mark opens and is not closed"),
+            ("time,phi\n0,\"1\n2,3\n", "line 2: a quotation decimal_mark opens and is not closed"),
             ("time,phi\n1,0\n#\n0.5,0\n", "line 4, column time: 0.5 s follows 1 s"),
             ("time,w_gust\n0,0\n1,201\n", "line 3, column w_gust: 201 m/s is beyond the range"),
             ("time,w_gust\n0,-1e200\n", "-1e200 m/s is beyond the range of the FMU, [-200, 200]"),

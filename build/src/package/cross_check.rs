@@ -7,8 +7,8 @@ use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::Instance;
 use crate::model_description::Causality;
-use crate::pilot;
-use crate::workspace::{TEXT, read, root};
+use crate::simulation;
+use crate::workspace::{MAX_TEXT_BYTES, read, root};
 use anyhow::{Result, bail};
 
 /// Where a file of the set is in the FMU.
@@ -29,10 +29,10 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
 
     let mut instance = Instance::new(fmu)?;
     instance.set_up(0.0, stop, tolerance)?;
-    let points = pilot::communication_points(STEP, stop, manoeuvre.times())?;
+    let points = simulation::communication_points(STEP, stop, manoeuvre.times())?;
     let outputs = model.with(Causality::Output);
-    let mut flown = pilot::fly(&mut instance, &manoeuvre, outputs, &points)?;
-    if let Some(reason) = flown.discarded {
+    let mut flown = simulation::run(&mut instance, &manoeuvre, outputs, &points)?;
+    if let Some(reason) = flown.discard_reason {
         bail!("the reference flight ends early: {reason}");
     }
     // A row has the outputs at the end of a step, before an input jumps.
@@ -42,7 +42,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let options =
         format!("StartTime,0.0\nStopTime,{stop:?}\nStepSize,{STEP:?}\nRelTol,{tolerance:?}\n");
     Ok(Files::from([
-        (path("in.csv"), read(&input, TEXT)?),
+        (path("in.csv"), read(&input, MAX_TEXT_BYTES)?),
         (path("ref.csv"), flown.record.csv()?.into_bytes()),
         (path("ref.opt"), options.into_bytes()),
     ]))

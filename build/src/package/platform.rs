@@ -89,7 +89,7 @@ impl Platform {
 }
 
 /// A library given as `platform=file`.
-pub fn given(text: &str) -> Result<(Platform, PathBuf)> {
+pub fn parse_library_option(text: &str) -> Result<(Platform, PathBuf)> {
     let known = || PLATFORMS.map(|platform| platform.name).join(", ");
     let Some((name, file)) = text.split_once('=') else {
         bail!("--library {text}: PLATFORM=FILE is expected; platforms are {}", known());
@@ -134,8 +134,8 @@ mod tests {
 
     #[test]
     fn library_options_name_the_platform() {
-        assert_eq!(given("win64=a.dll").unwrap(), (WINDOWS, PathBuf::from("a.dll")));
-        let message = given("win32=a.dll").unwrap_err().to_string();
+        assert_eq!(parse_library_option("win64=a.dll").unwrap(), (WINDOWS, PathBuf::from("a.dll")));
+        let message = parse_library_option("win32=a.dll").unwrap_err().to_string();
         assert!(message.contains("`win32`") && message.contains("linux64, win64, darwin64"));
     }
 }

@@ -24,7 +24,7 @@ pub struct Toolchain {
 /// the sources of the standard library.
 pub fn toolchain() -> Result<Toolchain> {
     let missing = |what: &str| anyhow!("win64 is not in it: {what}; {HOW_TO_GET}");
-    if answer(Path::new(LINKER), &["--version"]).is_none() {
+    if output_of(Path::new(LINKER), &["--version"]).is_none() {
         return Err(missing(&format!("the linker {LINKER} is missing")));
     }
     let own = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
@@ -50,7 +50,7 @@ pub fn toolchain() -> Result<Toolchain> {
 fn debian() -> Result<(Command, PathBuf)> {
     let rustc = Path::new("/usr/bin/rustc");
     let program = Path::new("/usr/bin/cargo");
-    let Some(version) = answer(rustc, &["--version"]).filter(|_| program.exists()) else {
+    let Some(version) = output_of(rustc, &["--version"]).filter(|_| program.exists()) else {
         bail!("no installed compiler has the target {}", WINDOWS.triple);
     };
     let wanted = env!("CARGO_PKG_RUST_VERSION");
@@ -58,7 +58,7 @@ fn debian() -> Result<(Command, PathBuf)> {
     if minor(&version) < minor(wanted) {
         bail!("{version} is older than {wanted}");
     }
-    let sysroot = answer(rustc, &["--print", "sysroot"]).unwrap_or_default();
+    let sysroot = output_of(rustc, &["--print", "sysroot"]).unwrap_or_default();
     let std = Path::new(&sysroot).join("lib/rustlib/src/rust");
     if !std.join("library/std").exists() {
         bail!("the sources of the standard library of {version} are missing");
@@ -76,12 +76,12 @@ fn debian() -> Result<(Command, PathBuf)> {
 }
 
 fn has_target(rustc: &Path) -> bool {
-    answer(rustc, &["--target", WINDOWS.triple, "--print", "target-libdir"])
+    output_of(rustc, &["--target", WINDOWS.triple, "--print", "target-libdir"])
         .is_some_and(|directory| Path::new(&directory).exists())
 }
 
 /// What a program prints, if it is there and content.
-fn answer(program: &Path, arguments: &[&str]) -> Option<String> {
+fn output_of(program: &Path, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).trim().to_string();
     output.status.success().then_some(text)

@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
 /// Most bytes of a data file; ours have 8 kB.
-pub const DATA: u64 = 1_000_000;
+pub const MAX_DATA_BYTES: u64 = 1_000_000;
 /// Most bytes of a text: a record of a million steps has 200 MB.
-pub const TEXT: u64 = 500_000_000;
+pub const MAX_TEXT_BYTES: u64 = 500_000_000;
 /// Most bytes of a library or an FMU.
-pub const BINARY: u64 = 500_000_000;
+pub const MAX_BINARY_BYTES: u64 = 500_000_000;
 
 /// Contents of files that belong together, by their paths.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;

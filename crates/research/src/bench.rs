@@ -2,18 +2,18 @@
 //! machine makes every time longer.
 
 mod chart;
-mod crates;
 #[cfg(feature = "diffsol")]
 mod diffsol;
 mod ensemble;
 mod instructions;
 mod masters;
-mod peers;
+mod other_integrators;
 mod precision;
 mod report;
+mod rust_crates;
 mod sizes;
-mod spread;
-mod start;
+mod startup;
+mod timing;
 
 use crate::cli::{Bench, BenchPart};
 use ahv_tool::workspace::{can_write, target};
@@ -48,7 +48,7 @@ pub fn run(options: &Bench) -> Result<()> {
         if !options.only.is_empty() && !options.only.contains(&part) {
             continue;
         }
-        note!("{name} ...");
+        errln!("{name} ...");
         let lines = measure(&effort, &mut report);
         match lines {
             Err(error) if !options.only.is_empty() => return Err(error.context(name)),
@@ -66,7 +66,7 @@ const PARTS: [(BenchPart, &str, Measure); 6] = [
     (BenchPart::Precision, "work and precision", precision::measure),
     (BenchPart::Instructions, "instructions", instructions::measure),
     (BenchPart::Masters, "FMPy", masters::measure),
-    (BenchPart::Start, "start-up and modes", start::measure),
+    (BenchPart::Start, "start-up and modes", startup::measure),
     (BenchPart::Size, "sizes", sizes::measure),
     (BenchPart::Ensemble, "ensemble", ensemble::measure),
 ];

@@ -16,7 +16,7 @@ use ahv::flight::Parameters;
 use ahv::structure::{FLEXIBLE, Modes};
 use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
 use ahv_tool::table::{row, table};
-use ahv_tool::workspace::{DATA, read_text, root, shown, write};
+use ahv_tool::workspace::{MAX_DATA_BYTES, read_text, root, shown, write};
 use anyhow::{Result, bail};
 use regression::{Axis, COEFFICIENTS, Deviation, Sample, TERMS, deviation, fit, samples};
 use std::fmt::Write;
@@ -54,19 +54,19 @@ pub fn run(options: &Fit) -> Result<()> {
     if !options.check {
         write(&file, &text)?;
     }
-    put!("{}", table(&result.rows))?;
-    put!("\nStrips against panels, elastic terms\n{}", table(&compared))?;
+    out!("{}", table(&result.rows))?;
+    out!("\nStrips against panels, elastic terms\n{}", table(&compared))?;
     if !options.check {
-        return say!("{} is written", shown(&file));
+        return outln!("{} is written", shown(&file));
     }
-    if read_text(&file, DATA)? != text {
+    if read_text(&file, MAX_DATA_BYTES)? != text {
         bail!(
             "{} is not what the model says; run `cargo ahv fit`, then `cargo ahv describe`, and \
              commit the results",
             shown(&file)
         );
     }
-    say!("{} is up to date", shown(&file))
+    outln!("{} is up to date", shown(&file))
 }
 
 fn regress(inputs: &Inputs) -> Result<Fitted> {

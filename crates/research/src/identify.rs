@@ -1,19 +1,19 @@
 //! Identification: numbers that are not published, from results that are.
 
 mod beam;
-mod bodies;
+mod body_cache;
 mod cells;
-mod fit;
-mod knowledge;
+mod l_curve;
+mod levenberg_marquardt;
 mod numbers;
-mod path;
 mod report;
+mod resolution;
 mod stations;
 mod tradeoff;
 
 use crate::cli::{Identified, Identify};
 use ahv::data::{AeroData, Data, DataFile, VehicleData};
-use ahv_tool::workspace::{DATA, read_text, root, shown, write};
+use ahv_tool::workspace::{MAX_DATA_BYTES, read_text, root, shown, write};
 use anyhow::{Result, bail};
 pub use cells::size;
 use report::Report;
@@ -32,16 +32,22 @@ const XU2015: &str = "src/data/aero/xu2015.toml";
 /// The data as the files have them now: each identification rests on what the other one wrote.
 fn data() -> Result<Data> {
     Ok(Data {
-        vehicle: VehicleData::parse("vehicle.toml", &read_text(&root().join(VEHICLE), DATA)?)?
-            .into(),
-        xu2015: AeroData::parse("aero/xu2015.toml", &read_text(&root().join(XU2015), DATA)?)?
-            .into(),
+        vehicle: VehicleData::parse(
+            "vehicle.toml",
+            &read_text(&root().join(VEHICLE), MAX_DATA_BYTES)?,
+        )?
+        .into(),
+        xu2015: AeroData::parse(
+            "aero/xu2015.toml",
+            &read_text(&root().join(XU2015), MAX_DATA_BYTES)?,
+        )?
+        .into(),
         ..Data::embedded()?
     })
 }
 
 fn beam(options: &Identify) -> Result<()> {
-    let before = read_text(&root().join(VEHICLE), DATA)?;
+    let before = read_text(&root().join(VEHICLE), MAX_DATA_BYTES)?;
     let data = data()?;
     let model = beam::Model::new(data, beam::printed()?)?;
     let solution = model.solve()?;
@@ -50,15 +56,15 @@ fn beam(options: &Identify) -> Result<()> {
     VehicleData::parse("vehicle.toml", &text)?;
     let settled = settle(options, "beam", VEHICLE, &text);
     if options.json {
-        say!("{}", serde_json::to_string_pretty(&report)?)?;
+        outln!("{}", serde_json::to_string_pretty(&report)?)?;
     } else if !options.check {
-        put!("{}", report.text())?;
+        out!("{}", report.text())?;
     }
     settled
 }
 
 fn xu2015(options: &Identify) -> Result<()> {
-    let model = path::Model::new(data()?)?;
+    let model = l_curve::Model::new(data()?)?;
     let chosen = model.chosen()?;
     let text = model.origin.file(&chosen.fit.point)?;
     let settled = settle(options, "xu2015", XU2015, &text);
@@ -67,9 +73,9 @@ fn xu2015(options: &Identify) -> Result<()> {
         let best = model.best(&chosen)?;
         let report = Report::new(&model, &path, knee, [&chosen, &best])?;
         if options.json {
-            say!("{:#}", report.json())?;
+            outln!("{:#}", report.json())?;
         } else {
-            put!("{}", report.text()?)?;
+            out!("{}", report.text()?)?;
         }
     }
     settled
@@ -78,13 +84,13 @@ fn xu2015(options: &Identify) -> Result<()> {
 /// Writes a file of the repository, or compares it with what would be written.
 fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
     let file = root().join(name);
-    let tell = |done: &str| note!("{} {done}", shown(&file));
+    let tell = |done: &str| errln!("{} {done}", shown(&file));
     if !options.check {
         write(&file, text)?;
         tell("is written");
         return Ok(());
     }
-    let found = read_text(&file, DATA)?;
+    let found = read_text(&file, MAX_DATA_BYTES)?;
     if found == text {
         tell("is what comes out");
         return Ok(());

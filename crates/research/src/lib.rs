@@ -17,11 +17,13 @@
 //! `identify xu2015 --check`, run by `tests/committed.rs`. The number of a command is part of the
 //! library: run `cargo ahv describe` after a change.
 
-#[macro_use(note, put, say)]
+#[macro_use(errln, out, outln)]
 extern crate ahv_tool;
 
 mod bench;
 mod cli;
+#[cfg(test)]
+mod documented_commands;
 mod fit;
 pub mod gas;
 mod identify;
@@ -29,10 +31,8 @@ mod methods;
 mod published;
 mod reproduce;
 pub mod shock_expansion;
-#[cfg(test)]
-mod texts;
 
-use ahv_tool::{say, workspace};
+use ahv_tool::{console, workspace};
 use anyhow::Result;
 use clap::Parser;
 use cli::{Cli, Command};
@@ -40,7 +40,7 @@ use std::process::ExitCode;
 
 /// Runs the command that was typed.
 pub fn main() -> ExitCode {
-    say::finish(Cli::try_parse().map(|Cli { command }| run(&command)))
+    console::exit_code(Cli::try_parse().map(|Cli { command }| run(&command)))
 }
 
 fn run(command: &Command) -> Result<ExitCode> {

@@ -147,8 +147,8 @@ pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let mut exponential = method(vehicle, trim);
-    say!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state")?;
-    say!("over its nominal value plus its size\n")?;
+    outln!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state")?;
+    outln!("over its nominal value plus its size\n")?;
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
             let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
@@ -165,7 +165,7 @@ pub fn run(options: &Compare) -> Result<()> {
                 ]);
             }
             let step = FLIGHT_S / steps as f64;
-            say!("From {start}, communication step {step} s\n{}", table(&rows))?;
+            outln!("From {start}, communication step {step} s\n{}", table(&rows))?;
         }
     }
     Ok(())

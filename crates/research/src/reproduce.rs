@@ -1,28 +1,28 @@
 //! `cargo ahv reproduce`: every table, claim and computed figure of the paper beside ours, with a verdict.
 
-mod advice;
 mod claims;
 mod claims_page;
-mod eigen;
+mod coefficient_sets;
+mod compute;
+mod eigenvectors;
 mod figures;
 mod fit_errors;
 mod html;
 mod identified;
+mod inertia_laws;
 mod interaction;
-mod laws;
+mod interaction_text;
 mod markdown;
+mod operating_point;
 mod origin;
 mod origin_page;
-mod point;
 mod report;
+mod root_tracking;
 mod roots;
-mod sets;
 mod sweep;
 mod tables;
-mod track;
 mod veering;
 mod verdict;
-mod work;
 
 use crate::cli;
 use ahv_tool::workspace::{can_write, shown, target, write_together};
@@ -64,14 +64,14 @@ pub enum Part {
 
 pub fn run(options: &cli::Reproduce) -> Result<()> {
     let started = std::time::Instant::now();
-    let sets = sets::chosen(&options.aero)?;
+    let sets = coefficient_sets::chosen(&options.aero)?;
     let parts = match options.only.as_slice() {
         [] => Part::value_variants(),
         only => only,
     };
     let directory = options.output.clone().unwrap_or_else(|| target().join("report"));
     can_write(&directory.join("report.html"))?;
-    let work = work::Work::new(parts, directory.join("figures"))?;
+    let work = compute::Computation::new(parts, directory.join("figures"))?;
     let report = work.report(&sets)?;
     let mut files = work.drawn.into_inner();
 
@@ -87,8 +87,8 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
     }
     write_together(&files)?;
     for file in files.keys() {
-        say!("{}", shown(file))?;
+        outln!("{}", shown(file))?;
     }
-    say!("done in {:.1} s", started.elapsed().as_secs_f64())?;
+    outln!("done in {:.1} s", started.elapsed().as_secs_f64())?;
     Ok(())
 }

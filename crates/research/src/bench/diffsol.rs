@@ -1,7 +1,7 @@
 //! The crate diffsol on our right-hand sides: its explicit method, and its implicit one with exact
 //! Jacobians.
 
-use super::crates::Scaled;
+use super::rust_crates::Scaled;
 use ahv::dynamics::linear::along;
 use ahv::vehicle::{CONTROLS, NOMINAL, STATES, State};
 use anyhow::Result;

@@ -2,7 +2,7 @@
 
 use super::Effort;
 use super::report::Report;
-use super::spread::Spread;
+use super::timing::Spread;
 use ahv::flight::Flight;
 use ahv_tool::cli::Set;
 use ahv_tool::trim::{flight, model};
@@ -53,7 +53,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     for (best, threads) in best.iter_mut().zip([1, cores]) {
         let mut rates = Vec::new();
         for run in 0..RUNS {
-            note!("  {threads} threads, run {} of {RUNS}", run + 1);
+            errln!("  {threads} threads, run {} of {RUNS}", run + 1);
             rates.push(rate(&start, effort.many, threads)?);
         }
         let spread = Spread::of(rates);

@@ -3,13 +3,13 @@
 use super::Effort;
 use super::precision::fly;
 use super::report::Report;
-use super::spread::Spread;
+use super::timing::Spread;
 use crate::cli::Probe;
 use crate::methods::Law;
 use ahv_tool::cli::Set;
 use ahv_tool::trim::{flight, model};
 use ahv_tool::workspace::works;
-use ahv_tool::workspace::{TEXT, read_text, target};
+use ahv_tool::workspace::{MAX_TEXT_BYTES, read_text, target};
 use anyhow::{Context, Result, bail};
 use std::hint::black_box;
 use std::process::Command;
@@ -57,7 +57,7 @@ fn count(probe: &str, calls: usize) -> Result<f64> {
     if !output.status.success() {
         bail!("valgrind: {}", String::from_utf8_lossy(&output.stderr));
     }
-    let text = read_text(&file, TEXT)?;
+    let text = read_text(&file, MAX_TEXT_BYTES)?;
     let total = text.lines().find_map(|line| line.strip_prefix("totals: "));
     Ok(total.context("callgrind wrote no totals")?.trim().parse()?)
 }

@@ -1,7 +1,7 @@
 //! In FMPy: the FMU, the same interface with steps that do nothing, and the vehicle in Python.
 
 use super::Effort;
-use super::peers::{lines, spread};
+use super::other_integrators::{lines, spread};
 use super::report::Report;
 use ahv_tool::package::{self, Targets};
 use ahv_tool::python::python;
@@ -39,7 +39,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     command
         .arg(root().join("crates/research/bench/fmpy_steps.py"))
         .arg((3 * effort.repeats).to_string());
-    command.arg(package::fresh(Targets::Possible)?).arg(idle()?);
+    command.arg(package::build_default(Targets::Possible)?).arg(idle()?);
     match python_fmu(&python) {
         Ok(file) => {
             command.arg(file);

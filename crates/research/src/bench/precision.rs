@@ -2,8 +2,8 @@
 
 use super::Effort;
 use super::report::Report;
-use super::spread::{Spread, seconds};
-use super::{crates, peers};
+use super::timing::{Spread, seconds};
+use super::{other_integrators, rust_crates};
 use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
 use ahv::flight::{DEFAULT_TOLERANCE, Flight, Setup, method};
 use ahv::vehicle::State;
@@ -64,12 +64,13 @@ fn flights(effort: &Effort, setup: &Setup, steps: usize, law: Law) -> Result<Vec
             error: error(&reached, &exact),
         });
     }
-    for (name, method) in crates::CRATES {
+    for (name, method) in rust_crates::CRATES {
         for tolerance in TOLERANCES {
             let limit = tolerance.parse()?;
             let fly = || {
-                problem
-                    .each(|system, interval, x| crates::step(*method, system, interval, x, limit))
+                problem.each(|system, interval, x| {
+                    rust_crates::step(*method, system, interval, x, limit)
+                })
             };
             let (reached, calls) = fly()?;
             points.push(Point {
@@ -90,24 +91,24 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let exact = Problem::new(vehicle, trim, STEPS[1], Law::OPEN).fly(&mut &RKF78, EXACT).0;
     let closed = Law::closed(trim);
-    report.versions.extend(crates::versions()?);
+    report.versions.extend(rust_crates::versions()?);
     compare("closed loop, 1 s", &flights(effort, &setup, STEPS[0], closed)?, report);
     let mut points = flights(effort, &setup, STEPS[0], Law::OPEN)?;
     compare("1 s", &points, report);
     // The others integrate anew where the elevator moves, as steps of a quarter do.
     let mut rare = flights(effort, &setup, STEPS[1], Law::OPEN)?;
     // A peer that is not installed is left out; one that is and fails is an error.
-    match peers::sundials() {
+    match other_integrators::sundials() {
         Ok(program) => {
             report.version("dpkg-query", &["-W", "-f=SUNDIALS ${Version}", "libsundials-dev"]);
-            rare.extend(peers::under_sundials(&program, effort, &exact)?);
+            rare.extend(other_integrators::under_sundials(&program, effort, &exact)?);
         }
         Err(why) => report.left_out("SUNDIALS", &why),
     }
     match python() {
         Ok(python) => {
             report.python_versions(&python, &["numpy", "scipy"]);
-            rare.extend(peers::under_scipy(&python, effort)?);
+            rare.extend(other_integrators::under_scipy(&python, effort)?);
         }
         Err(why) => report.left_out("SciPy", &why),
     }

@@ -2,9 +2,9 @@
 
 use super::chart;
 use super::precision::Point;
-use super::spread::Spread;
+use super::timing::Spread;
 use ahv_tool::table::{number, row, table};
-use ahv_tool::workspace::{DATA, Files, read_text, root, shown, write_together};
+use ahv_tool::workspace::{Files, MAX_DATA_BYTES, read_text, root, shown, write_together};
 use anyhow::Result;
 use serde::Serialize;
 use std::ffi::OsStr;
@@ -45,12 +45,12 @@ pub fn says(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
 }
 
 fn machine() -> String {
-    let information = read_text(Path::new("/proc/cpuinfo"), DATA).unwrap_or_default();
+    let information = read_text(Path::new("/proc/cpuinfo"), MAX_DATA_BYTES).unwrap_or_default();
     let name = information.lines().find_map(|line| line.strip_prefix("model name"));
     let name =
         name.map_or(std::env::consts::ARCH, |line| line.trim_start_matches([' ', '\t', ':']));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let load = read_text(Path::new("/proc/loadavg"), DATA).unwrap_or_default();
+    let load = read_text(Path::new("/proc/loadavg"), MAX_DATA_BYTES).unwrap_or_default();
     let load = load.split(' ').next().unwrap_or("unknown");
     format!("{name}, {cores} cores, load {load} before the run")
 }
@@ -82,7 +82,7 @@ impl Report {
         note: impl Into<String>,
     ) {
         let line = Line { what: what.into(), unit, value, note: note.into() };
-        note!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
+        errln!("  {}: {} {} {}", line.what, number(value.median), unit, line.note);
         self.lines.push(line);
     }
 
@@ -103,7 +103,7 @@ impl Report {
 
     pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
         let text = format!("{what}: {why:#}");
-        note!("  left out: {text}");
+        errln!("  left out: {text}");
         self.left_out.push(text);
     }
 
@@ -115,7 +115,7 @@ impl Report {
             files.extend(chart::files(&self.points, directory)?);
         }
         write_together(&files)?;
-        say!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;
+        outln!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;
         let mut rows = vec![row(["", "median", "least", "largest", "unit", "note"])];
         for Line { what, unit, value, note } in &self.lines {
             let mut cells = vec![what.clone(), number(value.median)];
@@ -127,13 +127,13 @@ impl Report {
             cells.extend([(*unit).to_string(), note.clone()]);
             rows.push(cells);
         }
-        put!("{}", table(&rows))?;
+        out!("{}", table(&rows))?;
         for text in &self.left_out {
-            say!("  left out: {text}")?;
+            outln!("  left out: {text}")?;
         }
-        say!("")?;
+        outln!("")?;
         for file in files.keys() {
-            say!("{}", shown(file))?;
+            outln!("{}", shown(file))?;
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 //! What is shown of an identification.
 
-use super::knowledge::Knowledge;
+use super::l_curve::{Model, Point, bends};
 use super::numbers::{MOVABLE, written_move};
-use super::path::{Model, Point, bends};
+use super::resolution::Resolution;
 use super::stations::Stations;
 use ahv_tool::table::{number, row, table};
 use anyhow::{Result, anyhow};
@@ -36,7 +36,7 @@ pub struct Report<'a> {
     chosen: &'a Point,
     best: &'a Point,
     filled: [Filled; 4],
-    knowledge: Knowledge,
+    knowledge: Resolution,
 }
 
 impl<'a> Report<'a> {
@@ -54,7 +54,7 @@ impl<'a> Report<'a> {
             Filled::new(model, "free_stations", &best.fit.point)?,
             Filled::new(model, "unbound", &last.fit.point)?,
         ];
-        let knowledge = Knowledge::new(&model.sensitivity(chosen)?, chosen.weight)?;
+        let knowledge = Resolution::new(&model.sensitivity(chosen)?, chosen.weight)?;
         Ok(Self { model, path, knee, chosen, best, filled, knowledge })
     }
 

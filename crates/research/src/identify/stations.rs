@@ -1,8 +1,8 @@
 //! The best that one inertia and free stations can do, and where the stations then are.
 
-use super::fit::CONVERGED;
+use super::l_curve::{Model, Point};
+use super::levenberg_marquardt::CONVERGED;
 use super::numbers::{GAMMA_OFFSET, MASS_CENTRE, MOVABLE};
-use super::path::{Model, Point};
 use ahv::data::AeroData;
 use ahv::vehicle::VehicleDefinition;
 use anyhow::{Result, anyhow};

@@ -1,9 +1,9 @@
 //! The trade-off of `xu2015` as a report shows it.
 
 use super::cells::Cell;
-use super::knowledge::Knowledge;
+use super::l_curve::{Model, Point};
 use super::numbers::{MOVABLE, moves_by_difference, written_move};
-use super::path::{Model, Point};
+use super::resolution::Resolution;
 use super::stations::Stations;
 use ahv::data::{AeroData, Data};
 use anyhow::{Result, anyhow};
@@ -79,7 +79,7 @@ impl TradeOff {
         let chosen = model.sparse(&path[knee])?;
         let last = path.last().ok_or_else(|| anyhow!("an empty path"))?;
         let sensitivity = model.sensitivity(&chosen)?;
-        let knowledge = Knowledge::new(&sensitivity, chosen.weight)?;
+        let knowledge = Resolution::new(&sensitivity, chosen.weight)?;
         let set = |point: &Point| {
             model.origin.moved(&point.fit.point).ok_or_else(|| anyhow!("no such set"))
         };

@@ -1,12 +1,12 @@
 //! What the paper concludes from figs 6 to 8, claim by claim.
 
-mod trials;
+mod criteria;
 
-use super::laws::Laws;
+use super::inertia_laws::Laws;
 use super::sweep::Sweep;
 use super::verdict::Verdict;
+pub use criteria::{HARDLY, SLIGHT};
 use serde::Serialize;
-pub use trials::{HARDLY, SLIGHT};
 
 /// What the claims are tested on.
 pub struct Evidence<'a> {
@@ -66,61 +66,61 @@ pub const CLAIMS: [Claim; 10] = [
         id: 'a',
         source: FUEL,
         text: "The vibration frequencies rise.",
-        test: trials::frequencies_rise,
+        test: criteria::frequencies_rise,
     },
     Claim {
         id: 'b',
         source: FUEL,
         text: "The unstable short-period pole moves slightly to the right.",
-        test: trials::pole_moves_right,
+        test: criteria::pole_moves_right,
     },
     Claim {
         id: 'c',
         source: FUEL,
         text: "The right-half-plane zero moves away from the imaginary axis.",
-        test: |evidence| trials::zero_moves_away(evidence.fuel),
+        test: |evidence| criteria::zero_moves_away(evidence.fuel),
     },
     Claim {
         id: 'd',
         source: DAMPER,
         text: "The flexible mode settles faster.",
-        test: trials::settles_faster,
+        test: criteria::settles_faster,
     },
     Claim {
         id: 'e',
         source: DAMPER,
         text: "The right-half-plane zero moves away from the imaginary axis.",
-        test: |evidence| trials::zero_moves_away(evidence.damping),
+        test: |evidence| criteria::zero_moves_away(evidence.damping),
     },
     Claim {
         id: 'f',
         source: DAMPER,
         text: "The other modes hardly move.",
-        test: trials::others_stay,
+        test: criteria::others_stay,
     },
     Claim {
         id: 'g',
         source: SPRING,
         text: "Near 5 rad/s the short-period poles move towards the axis.",
-        test: trials::poles_approach,
+        test: criteria::poles_approach,
     },
     Claim {
         id: 'h',
         source: SPRING,
         text: "Beyond it they change little.",
-        test: trials::poles_stay,
+        test: criteria::poles_stay,
     },
     Claim {
         id: 'i',
         source: SPRING,
         text: "From 20 rad/s on, the poles of the first flexible mode move to the left.",
-        test: trials::flexible_moves_left,
+        test: criteria::flexible_moves_left,
     },
     Claim {
         id: 'j',
         source: SPRING,
         text: "The right-half-plane zero moves towards the imaginary axis.",
-        test: trials::zero_approaches,
+        test: criteria::zero_approaches,
     },
 ];
 

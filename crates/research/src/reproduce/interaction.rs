@@ -1,6 +1,6 @@
 //! What the sloshing liquid does to the flexible modes, the short period and the zeros.
 
-use super::point::Point;
+use super::operating_point::OperatingPoint;
 use super::roots::{Name, Root, find};
 use super::sweep::Sweep;
 use super::tables::COLUMNS;
@@ -87,7 +87,7 @@ fn pair(root: &Root) -> [f64; 2] {
     [root.value.re, root.value.im]
 }
 
-fn order(title: String, point: &Point) -> Order {
+fn order(title: String, point: &OperatingPoint) -> Order {
     let [poles, zeros] = point.without_slosh();
     let mut roots = Vec::new();
     for (kind, kept, dropped) in [("pole", &point.poles, poles), ("zero", &point.zeros, zeros)] {
@@ -115,7 +115,7 @@ fn real_zeros(of: String, zeros: &[Root]) -> Option<RealZeros> {
     Some(RealZeros { of, right, left, sum: right + left })
 }
 
-fn limit(of: &'static str, point: &Point) -> Option<Limit> {
+fn limit(of: &'static str, point: &OperatingPoint) -> Option<Limit> {
     let pole = find(&point.poles, Name::UnstableShortPeriod)?.value.re;
     let zero = find(&point.zeros, Name::RightZero)?.value.re;
     let flexible = find(&point.poles, Name::Flexible(0)).map(Root::frequency);
@@ -126,11 +126,11 @@ impl Interaction {
     pub fn new(
         data: &Data,
         base: &VehicleOptions,
-        points: &[Point; 3],
+        points: &[OperatingPoint; 3],
         frequency: &Sweep,
     ) -> Result<Self> {
         let slosh = &points[2];
-        let hybrid = Point::new(
+        let hybrid = OperatingPoint::new(
             data,
             &VehicleOptions {
                 configuration: Configuration::SloshBeam,
@@ -163,7 +163,7 @@ impl Interaction {
 
         let empty =
             VehicleOptions { configuration: Configuration::SloshBeam, fuel_fraction: 0.0, ..*base };
-        let empty = Point::new(data, &empty)?;
+        let empty = OperatingPoint::new(data, &empty)?;
         let limits = COLUMNS
             .into_iter()
             .zip(points)

@@ -3,7 +3,7 @@
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport, count};
 use super::tables::{COLUMNS, Cell, REASONS, Table};
 use super::verdict::{Aim, NEAR, RANKS, difference};
-use super::{advice, claims_page, identified, interaction::Interaction, origin_page};
+use super::{claims_page, identified, interaction::Interaction, interaction_text, origin_page};
 use ahv_tool::table::number;
 
 /// The second column of Tables 2 and 3.
@@ -93,7 +93,7 @@ pub fn render(report: &Report) -> String {
     }
     if !report.veering.is_empty() {
         text += "## Slosh and beam: which mode is which\n\n![Veering](figures/veering.svg)\n\n";
-        text += &advice::structure(&report.veering);
+        text += &interaction_text::structure(&report.veering);
     }
     for set in &report.sets {
         if let Some(interaction) = &set.interaction {
@@ -245,7 +245,7 @@ fn set_report(set: &SetReport, many: bool) -> String {
 
 fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> String {
     let mut text = format!("## Slosh, beam and short period together: {}\n\n", escape(name));
-    text += &advice::coupling(interaction);
+    text += &interaction_text::coupling(interaction);
     for order in &interaction.orders {
         let rows: Vec<[String; 5]> = order
             .roots
@@ -271,7 +271,7 @@ fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> S
         .collect();
     text += &table(["", "right", "left", "sum"], 0, &rows);
     text += "**What a control designer should take from it**\n\n";
-    text += &advice::designer(interaction, &report.veering);
+    text += &interaction_text::designer(interaction, &report.veering);
     text
 }
 

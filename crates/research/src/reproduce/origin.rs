@@ -1,6 +1,6 @@
 //! Where the printed digits come from: numbers that speak for and against it.
 
-use super::point::{Gamma, Point};
+use super::operating_point::{Gamma, OperatingPoint};
 use super::roots::{Name, find};
 use super::tables::{COLUMNS, real_zeros, short_period};
 use crate::identify::size;
@@ -49,7 +49,7 @@ impl Case {
         size(self.zeros).powi(2)
     }
 
-    fn of(what: impl Into<String>, point: &Point) -> Result<Self> {
+    fn of(what: impl Into<String>, point: &OperatingPoint) -> Result<Self> {
         let what = what.into();
         let none = || anyhow!("{what}: no real short period or no real zeros");
         let poles = short_period(&point.poles).ok_or_else(none)?;
@@ -117,8 +117,14 @@ impl Lab<'_> {
         VehicleDefinition::with_coefficients(self.data, &options, &set)
     }
 
-    fn point(&self, column: usize, inertia: f64, elastic: f64, shift: f64) -> Result<Point> {
-        Point::of(self.definition(column, inertia, elastic, shift), Gamma::Printed)
+    fn point(
+        &self,
+        column: usize,
+        inertia: f64,
+        elastic: f64,
+        shift: f64,
+    ) -> Result<OperatingPoint> {
+        OperatingPoint::of(self.definition(column, inertia, elastic, shift), Gamma::Printed)
     }
 
     /// Newton's method on the logarithms of both products.
@@ -189,7 +195,7 @@ impl Origin {
             |shift: f64| Case::of(format!("{shift} m"), &lab.point(1, INERTIA, 1.0, shift)?);
         let even = VehicleOptions { configuration: Configuration::EvenMassBeam, ..*base };
         let seen = |what: &str, gamma| {
-            Case::of(what, &Point::of(VehicleDefinition::new(data, &even), gamma)?)
+            Case::of(what, &OperatingPoint::of(VehicleDefinition::new(data, &even), gamma)?)
         };
 
         let trim = trim(&rigid.vehicle, &base.condition)?;

@@ -2,8 +2,8 @@
 
 use super::claims::Tested;
 use super::fit_errors::FitErrors;
+use super::inertia_laws::Laws;
 use super::interaction::Interaction;
-use super::laws::Laws;
 use super::origin::Origin;
 use super::sweep::Sweep;
 use super::tables::Table;

@@ -1,6 +1,6 @@
 //! Poles and zeros with what moves in them, and their names.
 
-use super::eigen::direction;
+use super::eigenvectors::direction;
 use ahv::structure::FLEXIBLE;
 use nalgebra::{Complex, DMatrix, DVector};
 use serde::{Serialize, Serializer};

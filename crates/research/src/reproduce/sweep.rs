@@ -1,8 +1,8 @@
 //! The sweeps of figs 6 to 8: poles and zeros while one parameter moves.
 
-use super::point::Point;
+use super::operating_point::OperatingPoint;
+use super::root_tracking::{assurance, matches};
 use super::roots::{Name, Root};
-use super::track::{assurance, matches};
 use ahv::data::Data;
 use ahv::vehicle::{Configuration, VehicleOptions};
 use anyhow::Result;
@@ -90,7 +90,7 @@ impl Sweep {
             (0..=count).map(|i| from + (to - from) * i as f64 / count as f64).collect();
         let points = steps
             .iter()
-            .map(|&value| Point::new(data, &parameter.options(base, value)))
+            .map(|&value| OperatingPoint::new(data, &parameter.options(base, value)))
             .collect::<Result<Vec<_>>>()?;
         let mut weakest_match = 1.0;
         let poles = follow(points.iter().map(|point| &point.poles), &mut weakest_match);

@@ -1,6 +1,6 @@
 //! Tables 1 to 3, cell by cell.
 
-use super::point::Point;
+use super::operating_point::OperatingPoint;
 use super::roots::{Name, Root, find};
 use super::verdict::{Aim, Verdict, difference};
 use crate::identify::size;
@@ -189,7 +189,7 @@ fn real_pair(roots: &[Root], names: [Name; 2]) -> Option<[f64; 2]> {
 }
 
 /// Natural frequencies; they depend on no coefficient set.
-pub fn table1(printed: &Table1, points: &[Point; 3]) -> Table {
+pub fn table1(printed: &Table1, points: &[OperatingPoint; 3]) -> Table {
     let mut cells = Vec::new();
     for ((column, printed), point) in
         COLUMNS[1..].iter().zip([&printed.even, &printed.slosh]).zip(&points[1..])
@@ -215,7 +215,7 @@ pub fn table1(printed: &Table1, points: &[Point; 3]) -> Table {
     }
 }
 
-pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
+pub fn table2(printed: &Columns<Poles>, points: &[OperatingPoint; 3]) -> Table {
     let mut cells = Vec::new();
     for ((column, printed), point) in COLUMNS.into_iter().zip(printed.all()).zip(points) {
         let rigid = column == COLUMNS[0];
@@ -255,7 +255,7 @@ pub fn table2(printed: &Columns<Poles>, points: &[Point; 3]) -> Table {
     }
 }
 
-pub fn table3(printed: &Columns<Zeros>, points: &[Point; 3]) -> Table {
+pub fn table3(printed: &Columns<Zeros>, points: &[OperatingPoint; 3]) -> Table {
     let (mut cells, mut means) = (Vec::new(), Vec::new());
     for ((column, printed), point) in COLUMNS.into_iter().zip(printed.all()).zip(points) {
         let rigid = column == COLUMNS[0];

@@ -3,7 +3,7 @@
 
 use super::numbers::{CENTRES, COORDINATES, Prior, rounded};
 use crate::identify::cells::{short_period, size};
-use crate::identify::fit::{End, Fit, minimise};
+use crate::identify::levenberg_marquardt::{End, Fit, minimise};
 use crate::published::Published;
 use ahv::data::{AeroData, Data, VehicleData};
 use ahv::dynamics::linear::LinearModel;

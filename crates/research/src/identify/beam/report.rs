@@ -2,7 +2,7 @@
 
 use super::model::{DATA, DOUBT, FREQUENCIES, GROWTH, Model, Solution};
 use super::numbers::{COORDINATES, Scale, names, values, with_values};
-use crate::identify::fit::jacobian;
+use crate::identify::levenberg_marquardt::jacobian;
 use ahv::data::VehicleData;
 use ahv::structure::Beam;
 use ahv_tool::table::{number, row, table};

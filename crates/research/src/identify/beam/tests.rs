@@ -3,7 +3,7 @@
 use super::model::{DATA, Model, printed};
 use super::numbers::{COORDINATES, STATIONS, names, rounded, values};
 use super::report::sensitivity;
-use crate::identify::fit::minimise;
+use crate::identify::levenberg_marquardt::minimise;
 use ahv::data::{Data, DataFile, VehicleData};
 use ahv::flight::Parameters;
 use ahv::structure::{FLEXIBLE, Modes};

@@ -14,22 +14,22 @@ const MAX_STEPS: usize = 1_000_000;
 const SAME_INSTANT: f64 = 1e-6;
 
 /// How far a flight came.
-pub struct Flown {
+pub struct Simulated {
     pub record: Record,
-    /// Time spent in the FMU's steps.
-    pub spent: Duration,
+    /// Time step_time in the FMU's steps.
+    pub step_time: Duration,
     /// Why it ended early.
-    pub discarded: Option<String>,
+    pub discard_reason: Option<String>,
 }
 
 /// From initialisation mode to the stop time or an early end. Rows hold the inputs at their time and
 /// the `recorded` variables with them; where an input jumps there are two, before and after.
-pub fn fly<'a>(
+pub fn run<'a>(
     instance: &mut Instance,
     manoeuvre: &Manoeuvre,
     recorded: impl Iterator<Item = &'a Variable>,
     points: &[f64],
-) -> Result<Flown> {
+) -> Result<Simulated> {
     let recorded: Vec<_> = recorded.collect();
     let names = recorded.iter().map(|variable| variable.name.clone());
     let names = std::iter::once("time".to_string()).chain(names).collect();
@@ -40,38 +40,38 @@ pub fn fly<'a>(
         Ok(())
     };
 
-    let mut spent = Duration::ZERO;
-    let (mut time, mut discarded) = (0.0, None);
-    reach(instance, manoeuvre, time)?;
+    let mut step_time = Duration::ZERO;
+    let (mut time, mut discard_reason) = (0.0, None);
+    set_inputs_before(instance, manoeuvre, time)?;
     instance.initialise()?;
     add(instance, time)?;
     for &next in points {
-        if leave(instance, manoeuvre, time)? {
+        if set_inputs_after(instance, manoeuvre, time)? {
             add(instance, time)?;
         }
         let started = Instant::now();
         let outcome = instance.step(time, next - time)?;
-        spent += started.elapsed();
+        step_time += started.elapsed();
         if let Step::Discarded(reached, reason) = outcome {
             add(instance, reached)?;
-            discarded = Some(reason);
+            discard_reason = Some(reason);
             break;
         }
         time = next;
-        reach(instance, manoeuvre, time)?;
+        set_inputs_before(instance, manoeuvre, time)?;
         add(instance, time)?;
     }
-    Ok(Flown { record, spent, discarded })
+    Ok(Simulated { record, step_time, discard_reason })
 }
 
 /// Sets the inputs that an instant is reached with.
-fn reach(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
+fn set_inputs_before(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
     let values = manoeuvre.before(time).unwrap_or_default();
     manoeuvre.inputs.iter().zip(values).try_for_each(|(input, value)| instance.set(input, value))
 }
 
 /// Sets how the inputs go on from there; true if one jumps.
-fn leave(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<bool> {
+fn set_inputs_after(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<bool> {
     let (Some(before), Some(after)) = (manoeuvre.before(time), manoeuvre.after(time)) else {
         return Ok(false);
     };

@@ -1,6 +1,6 @@
 //! The unstable pole from full to empty tanks under several laws of inertia and mass centre: claim (b).
 
-use super::point::Point;
+use super::operating_point::OperatingPoint;
 use super::tables::short_period;
 use ahv::data::Data;
 use ahv::structure::MassProperties;
@@ -75,7 +75,7 @@ impl Vehicle<'_> {
         if centre {
             options.factors.mass_centre_shift_m += self.full.centre_m - own.centre_m;
         }
-        let [unstable, _] = short_period(&Point::new(self.data, &options)?.poles)
+        let [unstable, _] = short_period(&OperatingPoint::new(self.data, &options)?.poles)
             .ok_or_else(|| anyhow!("the short period oscillates"))?;
         Ok(unstable)
     }

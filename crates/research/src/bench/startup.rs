@@ -1,9 +1,9 @@
 //! From nothing to the first step, and the eigenproblem inside it.
 
 use super::Effort;
-use super::peers::lines;
+use super::other_integrators::lines;
 use super::report::Report;
-use super::spread::{Spread, seconds};
+use super::timing::{Spread, seconds};
 use ahv::data::Data;
 use ahv::dynamics::trim::trim;
 use ahv::flight::{DEFAULT_TOLERANCE, Setup};
@@ -25,7 +25,7 @@ const ELEMENTS: [u32; 5] = [125, 250, 500, 1000, 2000];
 const PEERS: u32 = 500;
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let fmu = Fmu::open(&package::fresh(Targets::Possible)?)?;
+    let fmu = Fmu::open(&package::build_default(Targets::Possible)?)?;
     let mut parts: [Vec<f64>; 3] = Default::default();
     for _ in 0..10 * effort.repeats {
         let started = Instant::now();
@@ -76,7 +76,7 @@ fn peers(report: &mut Report, problem: &serde_json::Value, ours: f64) -> Result<
     let script = root().join("crates/research/bench/modes_vs_eigsh.py");
     let output = Command::new(python()?).arg(script).arg(&file).output()?;
     for cells in lines(output)? {
-        let seconds = super::peers::spread(&cells[1..4])?;
+        let seconds = super::other_integrators::spread(&cells[1..4])?;
         let note = format!("{:.0} x ours; error {}", seconds.median / ours, cells[4]);
         report.line(format!("modes, 500 elements, {}", cells[0]), seconds.scaled(1e3), "ms", note);
     }

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 const SHOWN: f64 = 0.25;
 
 /// What the data say about the numbers at the chosen point.
-pub struct Knowledge {
+pub struct Resolution {
     pub singular_values: Vec<f64>,
     /// Unit combinations of ln ratio / doubt that belong to them, one per column.
     combinations: DMatrix<f64>,
@@ -18,7 +18,7 @@ pub struct Knowledge {
     pub errors: Vec<f64>,
 }
 
-impl Knowledge {
+impl Resolution {
     pub fn new(sensitivity: &DMatrix<f64>, weight: f64) -> Result<Self> {
         let svd = sensitivity.clone().svd(false, true);
         let v_t = svd.v_t.ok_or_else(|| anyhow!("no singular vectors"))?;

@@ -4,42 +4,42 @@ use crate::manoeuvre::Manoeuvre;
 use ahv::short::short;
 
 /// A line for each; `file` is the manoeuvre's, `stop` the end of the flight, s.
-pub fn hints(manoeuvre: &Manoeuvre, file: &str, stop: f64) -> Vec<String> {
-    let mut hints = Vec::new();
+pub fn input_warnings(manoeuvre: &Manoeuvre, file: &str, stop: f64) -> Vec<String> {
+    let mut warnings = Vec::new();
     if !manoeuvre.ignored.is_empty() {
         let names = manoeuvre.ignored.join(", ");
-        hints.push(format!("{file}: these columns are no inputs and are not read: {names}"));
+        warnings.push(format!("{file}: these columns are no inputs and are not read: {names}"));
     }
     if manoeuvre.inputs.is_empty() {
-        hints.push(format!("{file} has no column of an input: all inputs stay zero"));
-        return hints;
+        warnings.push(format!("{file} has no column of an input: all inputs stay zero"));
+        return warnings;
     }
     let (Some(first), Some(last)) = (manoeuvre.rows.first(), manoeuvre.rows.last()) else {
-        hints.push(format!("{file} has no row below the header: all inputs stay zero"));
-        return hints;
+        warnings.push(format!("{file} has no row below the header: all inputs stay zero"));
+        return warnings;
     };
     let (start, end) = (first.time, last.time);
     let [from, to, until] = [start, end, stop].map(short);
     if start >= stop {
-        hints.push(format!(
+        warnings.push(format!(
             "{file} starts at {from} s, after the end of the flight at {until} s: its first values \
              hold all the time; fly longer with --stop"
         ));
     } else if start > 0.0 && first.values.iter().any(|value| *value != 0.0) {
-        hints.push(format!(
+        warnings.push(format!(
             "{file} starts at {from} s: its first values hold from 0 s on; for others put a row \
              there"
         ));
     }
     if start < stop && end > stop {
-        hints.push(format!(
+        warnings.push(format!(
             "{file} goes on to {to} s, the flight ends at {until} s; fly longer with --stop"
         ));
     }
     if end < 0.0 {
-        hints.push(format!("{file} ends at {to} s, before the flight: its last values hold"));
+        warnings.push(format!("{file} ends at {to} s, before the flight: its last values hold"));
     }
-    hints
+    warnings
 }
 
 #[cfg(test)]
@@ -62,9 +62,13 @@ mod tests {
             ("time,phi\n-2,1\n-1,1\n", "a.csv ends at -1 s, before the flight"),
         ] {
             let manoeuvre = Manoeuvre::parse(text.as_bytes(), "a.csv", &model).unwrap();
-            let hints = hints(&manoeuvre, "a.csv", 2.0);
-            assert_eq!(hints.len(), usize::from(!expected.is_empty()), "{text:?} gave: {hints:?}");
-            assert!(hints.concat().contains(expected), "{text:?} gave: {hints:?}");
+            let warnings = input_warnings(&manoeuvre, "a.csv", 2.0);
+            assert_eq!(
+                warnings.len(),
+                usize::from(!expected.is_empty()),
+                "{text:?} gave: {warnings:?}"
+            );
+            assert!(warnings.concat().contains(expected), "{text:?} gave: {warnings:?}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Bodies by what an identification may move of them: of the numbers of a coefficient set only inertia
+//! BodyCache by what an identification may move of them: of the numbers of a coefficient set only inertia
 //! and mass centre change the structure, and its modes cost more than all the rest.
 
 use ahv::data::Inertia;
@@ -15,9 +15,9 @@ type Key = (Configuration, u64, Option<u64>);
 
 /// The latest bodies. All builds must agree in everything else that shapes a structure.
 #[derive(Default)]
-pub struct Bodies(Mutex<VecDeque<(Key, Arc<Body>)>>);
+pub struct BodyCache(Mutex<VecDeque<(Key, Arc<Body>)>>);
 
-impl Bodies {
+impl BodyCache {
     /// [`Body::new`], unless it is known.
     pub fn of(&self, definition: &VehicleDefinition) -> Result<Arc<Body>, Error> {
         let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &definition.aero.inertia;
@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn a_body_is_that_of_its_inertia_and_mass_centre() {
         let data = Data::embedded().unwrap();
-        let bodies = Bodies::default();
+        let bodies = BodyCache::default();
         let mut definition = VehicleDefinition::new(&data, &Parameters::new(&data).options);
         for _ in 0..2 * KEPT {
             let fresh = Body::new(&definition).unwrap();

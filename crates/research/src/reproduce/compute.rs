@@ -1,14 +1,14 @@
 //! Computes what a report needs, and nothing else.
 
 use super::claims::{Evidence, test};
+use super::coefficient_sets::Set;
 use super::figures::{loci, shapes, tradeoff, veering as veering_figure};
 use super::fit_errors::FitErrors;
+use super::inertia_laws::Laws;
 use super::interaction::Interaction;
-use super::laws::Laws;
+use super::operating_point::{Gamma, OperatingPoint};
 use super::origin::Origin;
-use super::point::{Gamma, Point};
 use super::report::{ERRATA, Figure, PAPER, Report, SetReport};
-use super::sets::Set;
 use super::sweep::{Parameter, Sweep};
 use super::tables::{Table, table1, table2, table3};
 use super::veering::Veering;
@@ -34,7 +34,7 @@ const SWEEPS: [(Parameter, Part, &str, &str); 3] = [
     (Parameter::Frequency, Part::Fig8, "fig8", "Fig. 8: poles and zeros over slosh frequency"),
 ];
 
-pub struct Work<'a> {
+pub struct Computation<'a> {
     parts: &'a [Part],
     figures: PathBuf,
     /// The figures so far.
@@ -44,7 +44,7 @@ pub struct Work<'a> {
     base: VehicleOptions,
 }
 
-impl<'a> Work<'a> {
+impl<'a> Computation<'a> {
     pub fn new(parts: &'a [Part], figures: PathBuf) -> Result<Self> {
         let data = Data::embedded()?;
         let base = Parameters::new(&data).options;
@@ -59,7 +59,7 @@ impl<'a> Work<'a> {
     pub fn report(&self, sets: &[Set]) -> Result<Report> {
         let mut table = None;
         if self.wants(&[Part::Table1]) {
-            note!("table 1");
+            errln!("table 1");
             table = Some(self.table1()?);
         }
         let mut figures = Vec::new();
@@ -71,7 +71,7 @@ impl<'a> Work<'a> {
         }
         let mut veering = Vec::new();
         if self.wants(&[Part::Interaction]) {
-            note!("veering of the modes: half and full tanks");
+            errln!("veering of the modes: half and full tanks");
             for fuel in [0.5, 1.0] {
                 veering.push(Veering::new(&self.data, &self.base, fuel)?);
             }
@@ -98,22 +98,21 @@ impl<'a> Work<'a> {
         if !self.wants(&[Part::Tradeoff]) {
             return Ok(None);
         }
-        note!("xu2015: trade-off between misfit and distance, there and back");
+        errln!("xu2015: trade-off between misfit and distance, there and back");
         let trade_off = TradeOff::new(&|place| {
             let Place { weight, distance, misfit } = place;
-            note!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
+            errln!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
         })?;
         self.draw(&tradeoff::Figure(&trade_off), tradeoff::SIZE, "tradeoff")?;
         Ok(Some(trade_off))
     }
 
     /// The vehicle of the best that one inertia and free stations can do.
-    fn best(&self, trade_off: &TradeOff) -> Result<[Point; 3]> {
+    fn best(&self, trade_off: &TradeOff) -> Result<[OperatingPoint; 3]> {
         let of = |configuration| {
             let options = VehicleOptions { configuration, aero: AeroSet::Xu2015, ..self.base };
-            let definition =
-                VehicleDefinition::with_coefficients(&self.data, &options, &trade_off.best_set);
-            Point::of(definition, Gamma::Printed)
+            let definition = VehicleDefinition::with_coefficients(&self.data, &options, &trade_off.best_set);
+            OperatingPoint::of(definition, Gamma::Printed)
         };
         let [rigid, even, slosh] = CONFIGURATIONS.map(of);
         Ok([rigid?, even?, slosh?])
@@ -123,7 +122,7 @@ impl<'a> Work<'a> {
         if !self.wants(&[Part::Origin]) {
             return Ok(None);
         }
-        note!("where the printed digits come from");
+        errln!("where the printed digits come from");
         Origin::new(&self.data, &self.base, &self.published).map(Some)
     }
 
@@ -131,7 +130,7 @@ impl<'a> Work<'a> {
         Ok(table1(&self.published.table1, &points(&self.data, &self.base)?))
     }
 
-    fn set(&self, set: &Set, best: Option<&[Point; 3]>) -> Result<SetReport> {
+    fn set(&self, set: &Set, best: Option<&[OperatingPoint; 3]>) -> Result<SetReport> {
         let best = best.filter(|_| set.aero == AeroSet::Xu2015);
         let base = VehicleOptions { aero: set.aero, ..self.base };
         let mut report = SetReport {
@@ -146,16 +145,16 @@ impl<'a> Work<'a> {
         };
         let mut points = None;
         if self.wants(&[Part::Table2, Part::Table3, Part::Interaction]) {
-            note!("{}: tables 2 and 3", set.name);
+            errln!("{}: tables 2 and 3", set.name);
             points = Some(self::points(&self.data, &base)?);
         }
         if let Some(points) = &points {
             if self.wants(&[Part::Table2]) {
-                let of = |points: &[Point; 3]| table2(&self.published.table2, points);
+                let of = |points: &[OperatingPoint; 3]| table2(&self.published.table2, points);
                 report.tables.push(beside(of(points), best.map(of)));
             }
             if self.wants(&[Part::Table3]) {
-                let of = |points: &[Point; 3]| table3(&self.published.table3, points);
+                let of = |points: &[OperatingPoint; 3]| table3(&self.published.table3, points);
                 report.tables.push(beside(of(points), best.map(of)));
             }
         }
@@ -163,7 +162,7 @@ impl<'a> Work<'a> {
             let frequency = parameter == Parameter::Frequency && self.wants(&[Part::Interaction]);
             if self.wants(&[part, Part::Claims]) || frequency {
                 let (from, to, steps) = parameter.range();
-                note!("{}: {parameter:?} from {from} to {to}, {} points", set.name, steps + 1);
+                errln!("{}: {parameter:?} from {from} to {to}, {} points", set.name, steps + 1);
                 report.sweeps.push(Sweep::new(&self.data, &base, parameter)?);
             }
             if let (true, Some(sweep)) = (self.wants(&[part]), report.sweeps.last()) {
@@ -176,7 +175,7 @@ impl<'a> Work<'a> {
         if let ([fuel, damping, frequency], true) =
             (report.sweeps.as_slice(), self.wants(&[Part::Claims]))
         {
-            note!("{}: {} claims", set.name, claims::CLAIMS.len());
+            errln!("{}: {} claims", set.name, claims::CLAIMS.len());
             let laws = Laws::new(&self.data, &base, claims::SLIGHT)?;
             report.claims = test(&Evidence { fuel, damping, frequency, laws: &laws });
             report.laws = Some(laws);
@@ -192,7 +191,7 @@ impl<'a> Work<'a> {
     }
 
     fn draw(&self, drawing: &impl Drawing, size: (u32, u32), file: &str) -> Result<()> {
-        note!("figure: {file}");
+        errln!("figure: {file}");
         self.drawn.borrow_mut().extend(files(drawing, size, &self.figures.join(file))?);
         Ok(())
     }
@@ -237,9 +236,9 @@ impl<'a> Work<'a> {
     }
 }
 
-fn points(data: &Data, base: &VehicleOptions) -> Result<[Point; 3]> {
+fn points(data: &Data, base: &VehicleOptions) -> Result<[OperatingPoint; 3]> {
     let [rigid, even, slosh] = CONFIGURATIONS
-        .map(|configuration| Point::new(data, &VehicleOptions { configuration, ..*base }));
+        .map(|configuration| OperatingPoint::new(data, &VehicleOptions { configuration, ..*base }));
     Ok([rigid?, even?, slosh?])
 }
 

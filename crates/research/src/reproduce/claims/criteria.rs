@@ -3,7 +3,7 @@
 //! judged. Only where the paper has words for the size, "slightly", "little", "hardly", are there limits.
 
 use super::{Evidence, Measure, Outcome};
-use crate::reproduce::laws::{Law, Laws};
+use crate::reproduce::inertia_laws::{Law, Laws};
 use crate::reproduce::markdown::percent;
 use crate::reproduce::roots::Name;
 use crate::reproduce::sweep::{Branch, Sweep};

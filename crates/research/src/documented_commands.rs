@@ -2,7 +2,7 @@
 
 use crate::cli::Cli;
 use ahv_tool::cli::{Cli as Tool, Command};
-use ahv_tool::workspace::{TEXT, read_text, root};
+use ahv_tool::workspace::{MAX_TEXT_BYTES, read_text, root};
 use clap::Parser;
 use clap::error::ErrorKind;
 
@@ -51,7 +51,7 @@ fn every_command_on_a_page_or_in_a_help_text_is_taken() {
     let pages = PAGES.iter().map(|page| (page, &["`", "#", ">"][..]));
     let help = HELP.iter().map(|page| (page, &["    ", "\"", "`", ";"][..]));
     for (page, ends) in pages.chain(help) {
-        let text = read_text(&root().join(page), TEXT).unwrap();
+        let text = read_text(&root().join(page), MAX_TEXT_BYTES).unwrap();
         for command in commands(&text, ends) {
             // The name for any of them.
             if command.get(1) == Some(&"COMMAND") {

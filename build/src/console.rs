@@ -7,57 +7,57 @@ use std::process::ExitCode;
 
 /// A line to standard output.
 #[macro_export]
-macro_rules! say {
-    ($($part:tt)*) => { $crate::say::put(format_args!("{}\n", format_args!($($part)*))) };
+macro_rules! outln {
+    ($($part:tt)*) => { $crate::console::write_out(format_args!("{}\n", format_args!($($part)*))) };
 }
 
 /// Text to standard output.
 #[macro_export]
-macro_rules! put {
-    ($($part:tt)*) => { $crate::say::put(format_args!($($part)*)) };
+macro_rules! out {
+    ($($part:tt)*) => { $crate::console::write_out(format_args!($($part)*)) };
 }
 
 /// A line to standard error, for people; where nobody can read it, it is not missed.
 #[macro_export]
-macro_rules! note {
-    ($($part:tt)*) => { $crate::say::note(format_args!($($part)*)) };
+macro_rules! errln {
+    ($($part:tt)*) => { $crate::console::write_err(format_args!($($part)*)) };
 }
 
 /// The reader of standard output has seen enough, as in `cargo ahv poles | head`: no failure.
 #[derive(Debug)]
-pub struct Closed;
+pub struct ClosedPipe;
 
-impl Display for Closed {
+impl Display for ClosedPipe {
     fn fmt(&self, text: &mut fmt::Formatter) -> fmt::Result {
         text.write_str("standard output is closed")
     }
 }
 
-impl std::error::Error for Closed {}
+impl std::error::Error for ClosedPipe {}
 
-pub fn put(text: Arguments) -> Result<()> {
-    io::stdout().write_fmt(text).map_err(refused)
+pub fn write_out(text: Arguments) -> Result<()> {
+    io::stdout().write_fmt(text).map_err(output_error)
 }
 
 /// Everything has to arrive before the command ends.
 pub fn flush() -> Result<()> {
-    io::stdout().flush().map_err(refused)
+    io::stdout().flush().map_err(output_error)
 }
 
-pub fn note(text: Arguments) {
+pub fn write_err(text: Arguments) {
     // There is no other place to complain.
     let _ = writeln!(io::stderr(), "{text}");
 }
 
-pub fn refused(error: io::Error) -> Error {
+pub fn output_error(error: io::Error) -> Error {
     match error.kind() {
-        ErrorKind::BrokenPipe => Closed.into(),
+        ErrorKind::BrokenPipe => ClosedPipe.into(),
         _ => Error::new(error).context("cannot write to standard output"),
     }
 }
 
 /// What failed, then why, on one line. A cause that only repeats what is already said is left out.
-pub fn causes(error: &Error) -> String {
+pub fn error_chain(error: &Error) -> String {
     let mut told = String::new();
     for cause in error.chain().map(ToString::to_string) {
         if told.is_empty() {
@@ -70,15 +70,15 @@ pub fn causes(error: &Error) -> String {
 }
 
 /// The end of a command; of clap's errors one is help.
-pub fn finish(done: Result<Result<ExitCode>, clap::Error>) -> ExitCode {
+pub fn exit_code(done: Result<Result<ExitCode>, clap::Error>) -> ExitCode {
     let code = |number| u8::try_from(number).map_or(ExitCode::FAILURE, ExitCode::from);
-    let done =
-        done.unwrap_or_else(|told| told.print().map_err(refused).map(|()| code(told.exit_code())));
+    let done = done
+        .unwrap_or_else(|told| told.print().map_err(output_error).map(|()| code(told.exit_code())));
     match done.and_then(|code| flush().map(|()| code)) {
         Ok(code) => code,
-        Err(error) if error.is::<Closed>() => ExitCode::SUCCESS,
+        Err(error) if error.is::<ClosedPipe>() => ExitCode::SUCCESS,
         Err(error) => {
-            note!("error: {}", causes(&error));
+            errln!("error: {}", error_chain(&error));
             ExitCode::FAILURE
         }
     }
@@ -93,15 +93,15 @@ mod tests {
     fn a_cause_is_told_once() {
         let error =
             anyhow!("no such file").context("cannot read a.csv: no such file").context("fly");
-        assert_eq!(causes(&error), "fly: cannot read a.csv: no such file");
+        assert_eq!(error_chain(&error), "fly: cannot read a.csv: no such file");
     }
 
     #[test]
     fn a_closed_pipe_is_known_under_its_context() {
-        let closed = refused(ErrorKind::BrokenPipe.into()).context("table 1");
-        assert!(closed.is::<Closed>());
-        let full = refused(ErrorKind::StorageFull.into());
-        assert!(!full.is::<Closed>());
-        assert!(causes(&full).starts_with("cannot write to standard output: "));
+        let closed = output_error(ErrorKind::BrokenPipe.into()).context("table 1");
+        assert!(closed.is::<ClosedPipe>());
+        let full = output_error(ErrorKind::StorageFull.into());
+        assert!(!full.is::<ClosedPipe>());
+        assert!(error_chain(&full).starts_with("cannot write to standard output: "));
     }
 }

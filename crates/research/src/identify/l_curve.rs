@@ -1,8 +1,8 @@
 //! The trade-off between misfit and distance, and its knee.
 
-use super::bodies::Bodies;
+use super::body_cache::BodyCache;
 use super::cells::{COLUMNS, Cell, cells, values};
-use super::fit::{CONVERGED, End, Fit, jacobian, minimise};
+use super::levenberg_marquardt::{CONVERGED, End, Fit, jacobian, minimise};
 use super::numbers::{MOVABLE, Origin, hardly_moves};
 use ahv::data::{AeroData, Data};
 use ahv::dynamics::trim::{Trim, trim};
@@ -31,7 +31,7 @@ pub struct Model {
     pub origin: Origin,
     pub data: Data,
     pub columns: Vec<VehicleOptions>,
-    pub(super) bodies: Bodies,
+    pub(super) bodies: BodyCache,
 }
 
 /// One point of the trade-off.
@@ -82,7 +82,7 @@ impl Model {
             origin: Origin::new()?,
             data,
             columns,
-            bodies: Bodies::default(),
+            bodies: BodyCache::default(),
         })
     }
 

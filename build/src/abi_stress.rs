@@ -1,4 +1,4 @@
-//! The C functions under abuse: many random calls, and fewer under tools that watch the memory.
+//! The C functions under abi_stress: many random calls, and fewer under tools that watch the memory.
 
 use crate::workspace::{cargo, check, target, works};
 use anyhow::Result;
@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Environment variable with the number of random sequences of calls.
-pub const SEQUENCES: &str = "AHV_FUZZ";
+pub const SEQUENCES_VARIABLE: &str = "AHV_FUZZ";
 
 /// Sequences where nobody says how many: a minute and a half in a release build.
-const FUZZ: &str = "100000";
+const DEFAULT_SEQUENCES: &str = "100000";
 /// A memory checker slows them down ten to fifty times.
-const SANITIZED: &str = "500";
-const WATCHED: &str = "40";
+const SANITIZER_SEQUENCES: &str = "500";
+const VALGRIND_SEQUENCES: &str = "40";
 
 /// The only target with both tools.
 const TARGET: &str = "x86_64-unknown-linux-gnu";
@@ -26,8 +26,13 @@ fn tests(program: &str) -> Command {
 
 /// Random sequences of calls, at full speed, and what only an optimised library can do wrong.
 pub fn fuzz() -> Result<()> {
-    let wanted = std::env::var(SEQUENCES).unwrap_or_else(|_| FUZZ.to_string());
-    check(tests("abi").args(["--release", "--", "--nocapture", "fuzz::"]).env(SEQUENCES, wanted))?;
+    let wanted =
+        std::env::var(SEQUENCES_VARIABLE).unwrap_or_else(|_| DEFAULT_SEQUENCES.to_string());
+    check(
+        tests("abi")
+            .args(["--release", "--", "--nocapture", "fuzz::"])
+            .env(SEQUENCES_VARIABLE, wanted),
+    )?;
     check(tests("abi_host").args(["--release", "--", "--nocapture"]))
 }
 
@@ -46,7 +51,7 @@ fn sanitizer_runtime() -> Option<PathBuf> {
 /// AddressSanitizer and its leak check, in the library and its tests (not in the standard library).
 pub fn sanitizer() -> Result<()> {
     if sanitizer_runtime().is_none() {
-        note!("left out: this toolchain has no AddressSanitizer");
+        errln!("left out: this toolchain has no AddressSanitizer");
         return Ok(());
     }
     check(
@@ -55,7 +60,7 @@ pub fn sanitizer() -> Result<()> {
             .arg(target().join("sanitizer"))
             // The run-time library exports functions too.
             .args(["--", "--nocapture", "--skip", "symbols::"])
-            .env(SEQUENCES, SANITIZED)
+            .env(SEQUENCES_VARIABLE, SANITIZER_SEQUENCES)
             // The flag is not stable yet; the compiler is the same.
             .env("RUSTC_BOOTSTRAP", "1")
             // The shared library finds the run-time library's functions in the test program.
@@ -66,7 +71,7 @@ pub fn sanitizer() -> Result<()> {
 /// A sample in valgrind: no invalid access, no use of unset memory, nothing lost.
 pub fn valgrind() -> Result<()> {
     if !works("valgrind", &["--version"]) {
-        note!("left out: valgrind is not installed");
+        errln!("left out: valgrind is not installed");
         return Ok(());
     }
     let runner = "target.'cfg(all())'.runner = 'valgrind --quiet --error-exitcode=9 \
@@ -75,6 +80,6 @@ pub fn valgrind() -> Result<()> {
         tests("abi")
             .args(["--config", runner, "--", "--nocapture", "--test-threads=1"])
             .args(["fuzz::", "state::"])
-            .env(SEQUENCES, WATCHED),
+            .env(SEQUENCES_VARIABLE, VALGRIND_SEQUENCES),
     )
 }

@@ -20,7 +20,7 @@ pub enum Gamma {
 
 /// All that the report needs to know of one vehicle.
 #[derive(Debug, Clone)]
-pub struct Point {
+pub struct OperatingPoint {
     pub vehicle: Vehicle,
     pub linear: LinearModel,
     pub metric: Metric,
@@ -28,7 +28,7 @@ pub struct Point {
     pub zeros: Vec<Root>,
 }
 
-impl Point {
+impl OperatingPoint {
     pub fn new(data: &Data, options: &VehicleOptions) -> Result<Self> {
         Self::of(VehicleDefinition::new(data, options), Gamma::Printed)
     }
@@ -159,7 +159,7 @@ mod tests {
                 VehicleDefinition::new(&data, &VehicleOptions { configuration, ..default });
             let (beam, oscillators) = definition.structure().unwrap();
             let modes = Modes::solve(&beam, &oscillators).unwrap();
-            let metric = Point::of(definition, Gamma::Printed).unwrap().metric.matrix;
+            let metric = OperatingPoint::of(definition, Gamma::Printed).unwrap().metric.matrix;
             let energy = metric.tr_mul(&metric);
             for i in 0..modes.count {
                 for k in 0..modes.count {

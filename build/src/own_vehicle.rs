@@ -1,7 +1,7 @@
 //! The user's own vehicle: the same command again, by a tool that is built with the user's data.
 
 use crate::cli::Command;
-use crate::workspace::{DATA, cargo, read_text, root, shown, target};
+use crate::workspace::{MAX_DATA_BYTES, cargo, read_text, root, shown, target};
 use ahv::data::{AeroData, DataFile, VehicleData};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -13,7 +13,7 @@ use std::process::ExitCode;
 /// everything is written there.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Your own vehicle")]
-pub struct Own {
+pub struct OwnVehicle {
     /// Geometry, mass, beam, tanks: a file like src/data/vehicle.toml
     #[arg(long, value_name = "FILE.toml")]
     pub vehicle: Option<PathBuf>,
@@ -28,13 +28,13 @@ const VEHICLE: &str = "AHV_VEHICLE";
 const COEFFICIENTS: &str = "AHV_COEFFICIENTS";
 
 /// The user's data, where a command takes them.
-fn of(command: &Command) -> Option<&Own> {
+fn of(command: &Command) -> Option<&OwnVehicle> {
     match command {
-        Command::Package(options) => Some(&options.own),
-        Command::Fly(options) => Some(&options.own),
-        Command::Trim(options) => Some(&options.own),
-        Command::Modes(options) => Some(&options.analyse.own),
-        Command::Poles(options) => Some(&options.analyse.own),
+        Command::Package(options) => Some(&options.own_vehicle),
+        Command::Fly(options) => Some(&options.own_vehicle),
+        Command::Trim(options) => Some(&options.own_vehicle),
+        Command::Modes(options) => Some(&options.analyse.own_vehicle),
+        Command::Poles(options) => Some(&options.analyse.own_vehicle),
         _ => None,
     }
 }
@@ -64,13 +64,13 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
             command.env(name, check(file)?);
         }
     }
-    note!("building with your data; the first time takes some minutes");
+    errln!("building with your data; the first time takes some minutes");
     let status = command.status().context("cannot start cargo")?;
     Ok(Some(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
 }
 
 /// Refuses a file that is not the data of a vehicle; where it is.
 fn check<T: DataFile>(file: &Path) -> Result<PathBuf> {
-    T::parse(&shown(file), &read_text(file, DATA)?)?;
+    T::parse(&shown(file), &read_text(file, MAX_DATA_BYTES)?)?;
     file.canonicalize().with_context(|| format!("cannot find {}", shown(file)))
 }
