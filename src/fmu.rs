@@ -1,26 +1,25 @@
 //! The flight as an FMU: the only place where flight and FMI meet.
 
 mod ignored;
+mod message;
+
+pub use message::Message;
 
 use crate::data::{DATA_FILES, OWN_FILES};
-use crate::error::Error;
 use crate::flight::{
     BeyondLimit, DEFAULT_TOLERANCE, Flight, INPUT_ORDER, Sample, Setup, Snapshot, TOLERANCES,
 };
 use crate::short::short;
 use crate::variables::TABLE;
 use fmi_model::identity::{fnv, hash_of_table};
-use fmi_model::{
-    About, Exchange, InputDerivatives, Model, ModelError, Remedy, Saving, Simulation, Tangent,
-    Variable,
-};
+use fmi_model::{About, Exchange, InputDerivatives, Model, Saving, Simulation, Tangent, Variable};
 
 /// Largest derivative of an input that can have been set.
 const LARGEST: f64 = 1e30;
 
 impl Model for Setup {
     type Simulation = Flight;
-    type Error = Error;
+    type Error = Message;
 
     const ABOUT: About = About {
         identifier: "ahv",
@@ -51,12 +50,12 @@ impl Model for Setup {
     const DEFAULT_TOLERANCE: f64 = DEFAULT_TOLERANCE;
     const TOLERANCES: [f64; 2] = TOLERANCES;
 
-    fn new() -> Result<Self, Error> {
-        Self::new()
+    fn new() -> Result<Self, Message> {
+        Ok(Self::new()?)
     }
 
-    fn start(&self, time_s: f64, tolerance: f64) -> Result<Flight, Error> {
-        self.start(time_s, tolerance)
+    fn start(&self, time_s: f64, tolerance: f64) -> Result<Flight, Message> {
+        Ok(self.start(time_s, tolerance)?)
     }
 
     fn started(&self, default: &Self, flight: &Flight, say: &mut dyn FnMut(String)) {
@@ -81,21 +80,9 @@ const DESCRIPTION: &str = if OWN_FILES.is_empty() {
     )
 };
 
-impl ModelError for Error {
-    fn remedy(&self) -> Remedy {
-        match self {
-            // The integrator chose its own steps down to the last valid instant: a shorter
-            // communication step gets no further.
-            Self::Envelope { .. } | Self::Fuel { .. } | Self::StepSize { .. } => Remedy::End,
-            Self::TooLong { .. } | Self::Numberless { .. } => Remedy::ShorterStep,
-            _ => Remedy::Reset,
-        }
-    }
-}
-
 impl Simulation for Flight {
     type Sample = Sample;
-    type Error = Error;
+    type Error = Message;
 
     const EXCHANGE: Option<Exchange<Self>> = Some(Exchange {
         set_time: Self::set_time,
@@ -104,7 +91,7 @@ impl Simulation for Flight {
                 flight.set_state(state);
             }
         },
-        completed_step: |flight| flight.check(),
+        completed_step: |flight| Ok(flight.check()?),
     });
     const INPUT_DERIVATIVES: Option<InputDerivatives<Self>> = Some(InputDerivatives {
         highest: INPUT_ORDER,
@@ -113,7 +100,7 @@ impl Simulation for Flight {
     });
     const TANGENT: Option<Tangent<Self>> =
         Some(|flight, states, inputs| match (states.try_into(), inputs.try_into()) {
-            (Ok(states), Ok(inputs)) => flight.tangent(states, inputs),
+            (Ok(states), Ok(inputs)) => Ok(flight.tangent(states, inputs)?),
             _ => unreachable!("the table has as many states and inputs as the flight"),
         });
     const SAVING: Option<Saving<Self>> = Some(Saving {
@@ -145,16 +132,16 @@ impl Simulation for Flight {
         self.state()
     }
 
-    fn evaluate(&mut self) -> Result<&Sample, Error> {
-        self.evaluate()
+    fn evaluate(&mut self) -> Result<&Sample, Message> {
+        Ok(self.evaluate()?)
     }
 
     fn derivatives(sample: &Sample) -> &[f64] {
         &sample.derivatives
     }
 
-    fn advance(&mut self, end_s: f64) -> Result<(), Error> {
-        self.advance(end_s)
+    fn advance(&mut self, end_s: f64) -> Result<(), Message> {
+        Ok(self.advance(end_s)?)
     }
 
     fn advise(&mut self, say: &mut dyn FnMut(String)) {

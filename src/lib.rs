@@ -14,7 +14,7 @@
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u); trim, poles, zeros | eq. (3), Tables 2-3 |
 //! | [`flight`] | parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
-//! | `fmu` | the flight as a model of [`fmi_model`] | FMI 2.0.5 |
+//! | [`fmu`] | the flight as a model of [`fmi_model`] | FMI 2.0.5 |
 //!
 //! Beside them stand [`error`], [`short`] and [`errata`]: where the paper is wrong or silent, with
 //! derivations.
@@ -31,7 +31,7 @@ pub mod dynamics;
 pub mod errata {}
 pub mod error;
 pub mod flight;
-mod fmu;
+pub mod fmu;
 pub mod short;
 pub mod solve;
 pub mod structure;

@@ -4,6 +4,7 @@ use crate::cli;
 use crate::table::{number, row, table};
 use crate::trim::{configuration, model, setup};
 use ahv::data::Data;
+use ahv::fmu::Message;
 use ahv::structure::{FLEXIBLE, Modes};
 use ahv::vehicle::{VehicleOptions, structure};
 use anyhow::Result;
@@ -42,7 +43,7 @@ pub fn ordinal(index: usize) -> &'static str {
 pub fn run(options: &cli::Modes) -> Result<()> {
     let cli::Modes { analyse: options, elements } = options;
     let setup = setup(&model()?, &options.set)?;
-    let flight = setup.fly()?;
+    let flight = setup.fly().map_err(Message)?;
     let vehicle = flight.vehicle();
     let count = vehicle.modes;
     let modes = match count {

@@ -6,6 +6,7 @@ use crate::table::{NOISE, number, row, table};
 use crate::trim::{configuration, model, setup};
 use ahv::dynamics::linear::LinearModel;
 use ahv::flight::Setup;
+use ahv::fmu::Message;
 use ahv::structure::FLEXIBLE;
 use anyhow::Result;
 use fmi_model::{Kind, table::find};
@@ -69,7 +70,7 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     let mut set = crate::cli::Set { settings: options.analyse.set.settings.clone() };
     set.settings.extend(configured.map(|name| format!("configuration={name}")));
     let setup = setup(&model()?, &set)?;
-    let flight = setup.fly()?;
+    let flight = setup.fly().map_err(Message)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let linear = [LinearModel::new, LinearModel::with_imu_gamma]
         .map(|linear| linear(vehicle, &trim.state, &trim.control));

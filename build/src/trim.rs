@@ -5,6 +5,7 @@ use crate::model_description::ModelDescription;
 use crate::table::{number, row, table};
 use crate::{describe, settings};
 use ahv::flight::{Flight, Setup};
+use ahv::fmu::Message;
 use ahv::vehicle::RIGID;
 use anyhow::{Result, anyhow};
 use fmi_model::table::find;
@@ -17,7 +18,7 @@ pub fn model() -> Result<ModelDescription> {
 
 /// A flight with the parameters of the command line.
 pub fn flight(model: &ModelDescription, set: &Set) -> Result<Flight> {
-    Ok(setup(model, set)?.fly()?)
+    Ok(setup(model, set)?.fly().map_err(Message)?)
 }
 
 /// The parameters of the command line.
@@ -39,7 +40,7 @@ pub fn configuration(setup: &Setup) -> String {
 pub fn run(options: &Analyse) -> Result<()> {
     let model = model()?;
     let setup = setup(&model, &options.set)?;
-    let flight = setup.fly()?;
+    let flight = setup.fly().map_err(Message)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let loads = vehicle.loads(&trim.state, &trim.control);
     let (_, outputs) = vehicle.derivatives_and_outputs(&trim.state, &trim.control, [0.0; 2]);

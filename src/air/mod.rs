@@ -18,6 +18,6 @@ pub mod strip_theory;
 
 pub use atmosphere::{Air, Atmosphere};
 pub use choking::Choking;
+pub use envelope::Envelope;
 pub(crate) use envelope::tightest;
-pub use envelope::{Envelope, LimitedQuantity};
 pub use intake::Intake;

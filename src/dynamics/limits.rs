@@ -1,14 +1,12 @@
 //! Where the model holds, where it has numbers at all, and what its actuators can do.
 
 use super::relative_wind::RelativeWind;
-use crate::air::{LimitedQuantity, tightest};
+use crate::air::tightest;
+use crate::error::{LimitedKind, LimitedQuantity};
 use crate::structure::{FLEXIBLE, SLOSH};
 use crate::vehicle::{
-    Airframe, Control, FUEL, Gust, H, MAX_GUST_M_PER_S, STATE_NAMES, STATES, State, V, Vehicle,
+    Airframe, Control, FUEL, Gust, H, MAX_GUST_M_PER_S, STATES, State, V, Vehicle,
 };
-
-/// Outputs that show the displacement of the liquid in the fore and aft tank.
-const SLOSH_NAMES: [&str; SLOSH] = ["slosh1", "slosh2"];
 
 /// Size up to which a state, in its unit, leaves every term of the equations finite: a power of two.
 const FAR: f64 = (1_u64 << 33) as f64;
@@ -36,7 +34,11 @@ pub fn out_of_domain(x: &State) -> Option<LimitedQuantity> {
         _ => -FAR,
     };
     (0..STATES)
-        .map(|i| LimitedQuantity { variable: STATE_NAMES[i], value: x[i], limits: [least(i), FAR] })
+        .map(|i| LimitedQuantity {
+            kind: LimitedKind::State(i),
+            value: x[i],
+            limits: [least(i), FAR],
+        })
         .find(|limited| limited.margin() < 0.0)
 }
 
@@ -82,7 +84,7 @@ impl Vehicle {
         self.at_level(x, |airframe| {
             let moved = airframe.sloshing(x);
             std::array::from_fn(|tank| LimitedQuantity {
-                variable: SLOSH_NAMES[tank],
+                kind: LimitedKind::Slosh(tank),
                 value: moved[tank],
                 limits: [-airframe.depth[tank], airframe.depth[tank]],
             })
@@ -96,7 +98,11 @@ impl Vehicle {
             let airflow = self.airflow(airframe, x, u, gust);
             self.choking_margin(&airflow, u)
         });
-        Some(LimitedQuantity { variable: "choking_margin", value, limits: [least, f64::INFINITY] })
+        Some(LimitedQuantity {
+            kind: LimitedKind::ChokingMargin,
+            value,
+            limits: [least, f64::INFINITY],
+        })
     }
 
     /// Whether the model holds at a state: within the ranges of the curve fits, with the liquid inside

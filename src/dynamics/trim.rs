@@ -1,8 +1,7 @@
 //! Trim: the controls and static deflections of steady flight.
 
 use super::linear::directional_derivative;
-use crate::error::Error;
-use crate::short::short;
+use crate::error::{Error, LimitedKind, LimitedQuantity};
 use crate::solve::Dual;
 use crate::structure::MODES;
 use crate::vehicle::{
@@ -105,46 +104,40 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         }
     }
 
-    let impossible = |limit: String, residual: f64| Error::Trim {
-        mach: condition.mach,
-        altitude_m: condition.altitude,
-        gamma_rad: condition.gamma,
-        residual,
-        limit,
-    };
     let envelope = &vehicle.aero.envelope;
-    let conditions = [
-        ("mach0", condition.mach, envelope.mach, ""),
-        ("altitude0", condition.altitude, envelope.altitude, " m"),
-    ];
-    let mut hit = conditions.into_iter().find_map(|(name, value, [min, max], unit)| {
-        (!(min..=max).contains(&value))
-            .then(|| format!("{name} = {}{unit} is beyond [{min}, {max}]", short(value)))
-    });
+    let outside = |kind, value, limits: [f64; 2]| {
+        let [min, max] = limits;
+        (!(min..=max).contains(&value)).then_some(LimitedQuantity { kind, value, limits })
+    };
+    let mut limit = outside(LimitedKind::Mach, condition.mach, envelope.mach)
+        .or_else(|| outside(LimitedKind::Altitude, condition.altitude, envelope.altitude));
     let [elevator, fuel] = vehicle.limits;
     let unknowns = [
-        ("alpha", envelope.alpha, " rad"),
-        ("delta_e", [-elevator, elevator], " rad"),
-        ("phi", [0.0, fuel], ""),
+        (LimitedKind::Incidence, envelope.alpha),
+        (LimitedKind::Elevator, [-elevator, elevator]),
+        (LimitedKind::FuelRatio, [0.0, fuel]),
     ];
     let steady = best < STEADY;
+    let mut possible = steady && limit.is_none();
     let mut limited = solution;
-    for (i, (name, [min, max], unit)) in unknowns.into_iter().enumerate() {
-        if !(min..=max).contains(&solution[i]) {
-            limited[i] = solution[i].clamp(min, max);
-            // Where the search did not end, its last point says nothing.
-            if steady && hit.is_none() {
-                let value = solution[i];
-                hit = Some(format!("{name} = {value:.4}{unit} is beyond [{min:.4}, {max:.4}]"));
-            }
+    for (i, (kind, limits)) in unknowns.into_iter().enumerate() {
+        let Some(beyond) = outside(kind, solution[i], limits) else { continue };
+        possible = false;
+        limited[i] = solution[i].clamp(limits[0], limits[1]);
+        // Where the search did not end, its last point says nothing.
+        if steady {
+            limit = limit.or(Some(beyond));
         }
     }
-    if hit.is_none() && !steady {
-        hit = Some("the equations have no solution near steady flight".into());
-    }
-    if let Some(limit) = hit {
+    if !possible {
         let (value, _) = residual(vehicle, &start, &limited);
-        return Err(impossible(limit, value.amax()));
+        return Err(Error::Trim {
+            mach: condition.mach,
+            altitude_m: condition.altitude,
+            gamma_rad: condition.gamma,
+            residual: value.amax(),
+            limit,
+        });
     }
 
     let (state, control) = insert(&start, &solution);

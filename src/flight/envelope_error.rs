@@ -2,7 +2,6 @@
 
 use super::controlled_vehicle::in_effect;
 use super::inputs::Inputs;
-use crate::air::LimitedQuantity;
 use crate::error::Error;
 use crate::vehicle::{Control, FUEL, State, Vehicle};
 
@@ -33,9 +32,9 @@ pub(super) fn envelope_error(
     if vehicle.fuel_table.is_some() && outside[FUEL] <= tightest.margin() * vehicle.fuel {
         return Error::Fuel { time_s };
     }
-    let LimitedQuantity { variable, value, limits: [min, max] } = vehicle
+    let limited = vehicle
         .limited_quantities(x, &control, gust)
-        .find(|limited| limited.variable == tightest.variable)
+        .find(|limited| limited.kind == tightest.kind)
         .unwrap_or(tightest);
-    Error::Envelope { variable, value, min, max, time_s }
+    Error::Envelope { limited, time_s }
 }

@@ -4,7 +4,6 @@ use super::controlled_vehicle::{ControlledVehicle, in_effect};
 use super::envelope_error::envelope_error;
 use super::inputs::Inputs;
 use super::method::Method;
-use crate::air::LimitedQuantity;
 use crate::dynamics::trim::Trim;
 use crate::dynamics::{Outputs, out_of_domain};
 use crate::error::Error;
@@ -102,12 +101,7 @@ impl Flight {
 
     /// Whether the equations have numbers here.
     pub(super) fn check_numbers(&self) -> Result<(), Error> {
-        out_of_domain(&self.state).map_or(
-            Ok(()),
-            |LimitedQuantity { variable, value, limits: [min, max] }| {
-                Err(Error::Numberless { variable, value, min, max })
-            },
-        )
+        out_of_domain(&self.state).map_or(Ok(()), |limited| Err(Error::Numberless { limited }))
     }
 
     /// Vehicle.

@@ -4,14 +4,13 @@ use super::in_flight::Flight;
 use super::inputs::Inputs;
 use super::method::{DEFAULT_TOLERANCE, FIRST_STEP, Method, method};
 use super::parameters::{InputMode, Offsets, Parameters};
-use crate::air::LimitedQuantity;
 use crate::data::Data;
 use crate::dynamics::trim;
 use crate::dynamics::trim::Trim;
-use crate::error::Error;
+use crate::error::{Error, LimitedKind, StartCause};
 use crate::solve::Integrator;
 use crate::structure::{FLEXIBLE, MODES, SLOSH};
-use crate::vehicle::{CONTROLS, FUEL, GUSTS, RIGID, State, Vehicle, VehicleOptions};
+use crate::vehicle::{CONTROLS, FUEL, GUSTS, PHI, RIGID, State, Vehicle, VehicleOptions};
 use std::sync::Arc;
 
 /// What a flight starts from.
@@ -51,7 +50,7 @@ impl Setup {
     /// tolerance of its integration and inputs at zero.
     ///
     /// # Errors
-    /// [`Error::Trim`] if there is no trim, [`Error::Value`] if the start values lie outside the
+    /// [`Error::Trim`] if there is no trim, [`Error::StartOutside`] if the start values lie outside the
     /// region where the curve fits hold.
     pub fn start(&self, time: f64, tolerance: f64) -> Result<Flight, Error> {
         let Parameters { options, trim: trimmed, input_mode, alpha0, q0, eta0, offsets } =
@@ -133,7 +132,7 @@ fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
     }
 }
 
-/// A start where the model does not hold, by the names of the parameters that lead there.
+/// A start where the model does not hold, and the parameter that leads there.
 fn start_outside(
     vehicle: &Vehicle,
     start: &State,
@@ -141,47 +140,35 @@ fn start_outside(
     parameters: &Parameters,
 ) -> Error {
     let still = [0.0; GUSTS];
-    let LimitedQuantity { variable, value, limits: [min, max] } =
-        vehicle.tightest(start, &steady.control, still);
+    let limited = vehicle.tightest(start, &steady.control, still);
     let (offsets, options) = (&parameters.offsets, &parameters.options);
-    // The flexible mode that moves the liquid of a tank most.
-    let bent = |tank: usize| {
-        let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
-        (0..FLEXIBLE).max_by(|i, k| moved(i).total_cmp(&moved(k))).filter(|i| moved(i) > 0.0)
-    };
     let sloshing = |tank: usize| {
-        let (name, offset) = [("slosh1_offset", 0), ("slosh2_offset", 1)]
-            .map(|(name, tank)| (name, offsets.displacement[FLEXIBLE + tank]))[tank];
-        match bent(tank).filter(|_| !parameters.trim) {
-            _ if offset != 0.0 => (name, offset),
-            Some(i) => (["eta10", "eta20", "eta30"][i], parameters.eta0[i]),
-            None if options.slosh_frequency > 0.0 => ("slosh_frequency", options.slosh_frequency),
-            None => ("fuel_fraction", options.fuel_fraction),
+        let offset = offsets.displacement[FLEXIBLE + tank];
+        // The flexible mode that moves the liquid of the tank most.
+        let moved = |i: &usize| (vehicle.airframe.slosh[tank][*i] * parameters.eta0[*i]).abs();
+        let bending = (0..FLEXIBLE)
+            .max_by(|i, k| moved(i).total_cmp(&moved(k)))
+            .filter(|i| !parameters.trim && moved(i) > 0.0);
+        match bending {
+            _ if offset != 0.0 => StartCause::SloshOffset(tank, offset),
+            Some(i) => StartCause::Bending(i, parameters.eta0[i]),
+            None if options.slosh_frequency > 0.0 => {
+                StartCause::SloshFrequency(options.slosh_frequency)
+            }
+            None => StartCause::FuelFraction(options.fuel_fraction),
         }
     };
-    let (name, given) = match variable {
-        "h" => ("altitude0", value),
-        "mach" => ("mach0", options.condition.mach),
-        "alpha" if parameters.trim || offsets.alpha != 0.0 => ("alpha_offset", offsets.alpha),
-        "alpha" => ("alpha0", value),
-        "slosh1" => sloshing(0),
-        "slosh2" => sloshing(1),
+    let offset = StartCause::IncidenceOffset(offsets.alpha);
+    let cause = match limited.kind {
+        LimitedKind::Altitude => StartCause::Altitude(limited.value),
+        LimitedKind::Mach => StartCause::Mach(options.condition.mach),
+        LimitedKind::Incidence if parameters.trim || offsets.alpha != 0.0 => offset,
+        LimitedKind::Incidence => StartCause::Incidence(limited.value),
+        LimitedKind::Slosh(tank) => sloshing(tank),
         // The burner chokes: for the incidence, or for the fuel that the trim takes.
-        _ if offsets.alpha != 0.0 && vehicle.holds(&steady.state, &steady.control, still) => {
-            ("alpha_offset", offsets.alpha)
-        }
-        _ if parameters.trim => ("phi_trim", steady.control[1]),
-        _ => ("alpha0", parameters.alpha0),
+        _ if offsets.alpha != 0.0 && vehicle.holds(&steady.state, &steady.control, still) => offset,
+        _ if parameters.trim => StartCause::TrimFuelRatio(steady.control[PHI]),
+        _ => StartCause::Incidence(parameters.alpha0),
     };
-    let remedy = match name {
-        "phi_trim" => "; the burner chokes: choose another mach0, altitude0 or thrust_factor",
-        _ => "",
-    };
-    let limit = match max {
-        f64::INFINITY => format!("from {min:.6} up"),
-        _ => format!("in [{min:.6}, {max:.6}]"),
-    };
-    let expected =
-        format!("it makes {variable} {value:.6} at the start; the model holds {limit}{remedy}");
-    Error::Value { variable: name.into(), value: given, expected }
+    Error::StartOutside { limited, cause }
 }

@@ -107,24 +107,14 @@ impl SloshingTank {
     ) -> Result<[Self; 2], Error> {
         let asked = settings.frequency_rad_per_s;
         if asked > 0.0 && asked < SLOWEST_RAD_PER_S {
-            return Err(Error::Value {
-                variable: "slosh_frequency".into(),
-                value: asked,
-                expected: format!(
-                    "0 for the tanks' own frequencies, or {SLOWEST_RAD_PER_S} and more"
-                ),
+            return Err(Error::SloshFrequency {
+                asked_rad_per_s: asked,
+                least_rad_per_s: SLOWEST_RAD_PER_S,
             });
         }
         let gravity = settings.gravity_m_per_s2;
         if settings.frequency_rad_per_s <= 0.0 && gravity <= 0.0 {
-            return Err(Error::Value {
-                variable: "slosh_frequency".into(),
-                value: settings.frequency_rad_per_s,
-                expected: format!(
-                    "a positive frequency, since none follows from an effective gravity of \
-                     {gravity} m/s^2"
-                ),
-            });
+            return Err(Error::NoSloshFrequency { gravity_m_per_s2: gravity });
         }
         let filling = filling(data, fuel_fraction);
         let propellant = propellant_kg_per_m(data, fuel_fraction);

@@ -87,7 +87,7 @@ impl VehicleDefinition {
     /// densities does.
     ///
     /// # Errors
-    /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency, [`Error::Inertia`] if no
+    /// [`Error::NoSloshFrequency`], [`Error::SloshFrequency`], [`Error::Inertia`] if no
     /// body could have the wanted inertia.
     pub fn structure(&self) -> Result<(Beam, Vec<Oscillator>), Error> {
         let fuel = self.options.fuel_fraction;

@@ -45,7 +45,7 @@ impl Vehicle {
     /// Puts a vehicle together.
     ///
     /// # Errors
-    /// [`Error::Value`] if a sensor is off the body; those of [`Body::new`]; [`Error::Value`] if the
+    /// [`Error::SensorOffBody`]; those of [`Body::new`]; [`Error::ModesNotFollowed`] if the
     /// modes cannot be followed while fuel burns.
     pub fn new(data: &Data, options: &VehicleOptions) -> Result<Self, Error> {
         Self::from_definition(&VehicleDefinition::new(data, options))

@@ -61,7 +61,7 @@ impl FuelTable {
     /// Solves a vehicle, whose body at the start is known, at all levels below.
     ///
     /// # Errors
-    /// Those of [`Body::new`]; [`Error::Value`] if the modes cannot be followed.
+    /// Those of [`Body::new`]; [`Error::ModesNotFollowed`] if the modes cannot be followed.
     pub fn new(definition: &VehicleDefinition, body: &Body) -> Result<Self, Error> {
         let residual = definition.vehicle.mass.residual_fraction.value;
         let drained = 1.0 - residual;

@@ -4,7 +4,7 @@ use super::factors::Factors;
 use super::state::{GAMMA, H, STATES, State, V};
 use crate::air::Atmosphere;
 use crate::data::AeroSet;
-use crate::error::Error;
+use crate::error::{Error, Sensor};
 
 /// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,12 +52,11 @@ impl SensorStations {
     /// Whether both are on a body of this length, m.
     ///
     /// # Errors
-    /// [`Error::Value`] with the station that is not.
+    /// [`Error::SensorOffBody`].
     pub fn check(&self, length_m: f64) -> Result<(), Error> {
-        for (variable, value) in [("imu_station", self.imu), ("probe_station", self.probe)] {
-            if !(0.0..=length_m).contains(&value) {
-                let expected = format!("a sensor sits on the body, from 0 to {length_m} m");
-                return Err(Error::Value { variable: variable.into(), value, expected });
+        for (sensor, station_m) in [(Sensor::Imu, self.imu), (Sensor::Probe, self.probe)] {
+            if !(0.0..=length_m).contains(&station_m) {
+                return Err(Error::SensorOffBody { sensor, station_m, length_m });
             }
         }
         Ok(())

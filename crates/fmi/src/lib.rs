@@ -1,6 +1,106 @@
 //! Turns a Rust model into an FMU: a library that any simulation master loads through FMI 2.0, for
 //! Co-Simulation and, if the model can be integrated from outside, for Model Exchange.
 //!
+//! A complete model, a first-order lag; in a `cdylib`, [`export!`] is all that follows:
+//!
+//! ```
+//! use fmi_model::{About, Dependencies, Kind, Model, Simulation, Unit, Variable};
+//! use std::convert::Infallible;
+//!
+//! #[derive(Debug, Clone, PartialEq)]
+//! pub struct Lag {
+//!     time_constant_s: f64,
+//! }
+//!
+//! #[derive(Debug)]
+//! pub struct Lagging {
+//!     time_constant_s: f64,
+//!     time_s: f64,
+//!     input: [f64; 1],
+//!     state: [f64; 1],
+//!     error: f64,
+//! }
+//!
+//! impl Model for Lag {
+//!     type Simulation = Lagging;
+//!     type Error = Infallible;
+//!
+//!     const ABOUT: About =
+//!         About { description: "First-order lag", ..About::new("lag", env!("CARGO_PKG_VERSION")) };
+//!     const VARIABLES: &'static [Variable<Self>] = &[
+//!         Variable::input(0, "u", Unit::ONE, "Input"),
+//!         Variable::output_state(0, "y", Unit::ONE, "Output, zero at the start"),
+//!         Variable::output(
+//!             "error",
+//!             Unit::ONE,
+//!             "Input less output",
+//!             Dependencies::constant(0b11),
+//!             |error: &f64| *error,
+//!         ),
+//!         Variable::parameter(
+//!             "time_constant",
+//!             Kind::Real(Unit::SECOND),
+//!             "Time constant",
+//!             |lag: &Self| lag.time_constant_s,
+//!             |lag, value| lag.time_constant_s = value,
+//!         )
+//!         .within([1e-6, 1e6]),
+//!     ];
+//!
+//!     fn new() -> Result<Self, Infallible> {
+//!         Ok(Self { time_constant_s: 1.0 })
+//!     }
+//!
+//!     fn start(&self, time_s: f64, _tolerance: f64) -> Result<Lagging, Infallible> {
+//!         let time_constant_s = self.time_constant_s;
+//!         Ok(Lagging { time_constant_s, time_s, input: [0.0], state: [0.0], error: 0.0 })
+//!     }
+//! }
+//!
+//! impl Simulation for Lagging {
+//!     type Sample = f64;
+//!     type Error = Infallible;
+//!
+//!     fn time(&self) -> f64 {
+//!         self.time_s
+//!     }
+//!     fn inputs(&self) -> &[f64] {
+//!         &self.input
+//!     }
+//!     fn set_input(&mut self, number: usize, value: f64) {
+//!         self.input[number] = value;
+//!     }
+//!     fn states(&self) -> &[f64] {
+//!         &self.state
+//!     }
+//!     fn evaluate(&mut self) -> Result<&f64, Infallible> {
+//!         self.error = self.input[0] - self.state[0];
+//!         Ok(&self.error)
+//!     }
+//!     fn advance(&mut self, end_s: f64) -> Result<(), Infallible> {
+//!         // Exact for an input that is constant over the step.
+//!         let left = (-(end_s - self.time_s) / self.time_constant_s).exp();
+//!         self.state[0] = self.input[0] + (self.state[0] - self.input[0]) * left;
+//!         self.time_s = end_s;
+//!         Ok(())
+//!     }
+//! }
+//!
+//! fmi_model::export!(Lag);
+//!
+//! // What a master does, without the C interface between.
+//! use fmi_model::instance::{Instance, Interface};
+//! let mut lag = Instance::<Lag>::new(Interface::CoSimulation, false)?;
+//! lag.set_real(&[3], &[0.5])?;
+//! lag.setup_experiment(None, 0.0, None)?;
+//! lag.enter_initialization_mode()?;
+//! lag.exit_initialization_mode()?;
+//! lag.set_real(&[0], &[1.0])?;
+//! lag.do_step(0.0, 0.5)?;
+//! lag.get_real(&[1], |_, y| assert!((y - (1.0 - (-1.0_f64).exp())).abs() < 1e-12))?;
+//! # Ok::<(), fmi_model::failure::Failure>(())
+//! ```
+//!
 //! | module | its job |
 //! |---|---|
 //! | [`model`] | the traits that a model implements |

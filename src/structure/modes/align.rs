@@ -56,7 +56,7 @@ impl Modes {
     /// the tank whose displacement it counts.
     ///
     /// # Errors
-    /// [`Error::Value`] if the motions have a part that no reference has.
+    /// [`Error::ModesNotFollowed`] if the motions have a part that no reference has.
     pub fn aligned_to(
         &self,
         beam: &Beam,
@@ -82,13 +82,7 @@ impl Modes {
                 overlap[(i, k)] = products[i][k] * self.modal_mass[i].sqrt() / norm;
             }
         }
-        let mut rotation = nearest_rotation(overlap).ok_or_else(|| Error::Value {
-            variable: "fuel_burn".into(),
-            value: 1.0,
-            expected: "the modes cannot be followed until the tanks are empty; \
-                       choose another slosh_frequency, or false"
-                .into(),
-        })?;
+        let mut rotation = nearest_rotation(overlap).ok_or(Error::ModesNotFollowed)?;
 
         let mut aligned = Self { shape: Vec::with_capacity(count), ..self.clone() };
         let per_root_mass: [f64; MODES] =

@@ -1,8 +1,9 @@
 //! A flight ends where the liquid would leave its depth.
 
 use crate::model::{data, setup, shown};
-use ahv::error::Error;
+use ahv::error::{Error, LimitedKind, LimitedQuantity};
 use ahv::flight::Flight;
+use ahv::fmu::Message;
 use ahv::vehicle::{GUSTS, STATES};
 
 const NAMES: [&str; 2] = ["slosh1", "slosh2"];
@@ -41,10 +42,9 @@ fn verif_liquid_that_reaches_its_depth_ends_the_step_at_the_last_valid_instant()
             for depths in [1.5, -1.5] {
                 let (mut flight, depth) = thrown(tank, depths, fuel_burn);
                 let error = flight.advance(SWING_S).unwrap_err();
-                let Error::Envelope { variable, value, min, max, time_s } = error else {
-                    panic!("{error}")
-                };
-                assert_eq!(variable, name, "{error}");
+                let Error::Envelope { limited, time_s } = error else { panic!("{error}") };
+                let LimitedQuantity { kind, value, limits: [min, max] } = limited;
+                assert_eq!(kind, LimitedKind::Slosh(tank), "{error}");
                 assert!(time_s > 0.0 && time_s < SWING_S && time_s == flight.time(), "{error}");
                 let limit = depth_of(tank, &flight);
                 assert!((max - limit).abs() < 1e-6 && min == -max, "{error}: {limit}");
@@ -61,7 +61,7 @@ fn verif_liquid_that_reaches_its_depth_ends_the_step_at_the_last_valid_instant()
                 assert!(vehicle.holds(flight.state(), &control, [0.0; GUSTS]));
                 let (state, time) = (*flight.state(), flight.time());
                 let again = flight.advance(time + 1e-3).unwrap_err();
-                let same = matches!(again, Error::Envelope { variable, .. } if variable == name);
+                let same = matches!(again, Error::Envelope { limited, .. } if limited.kind == kind);
                 assert!(same, "{again}");
                 assert!(flight.time() - time < 1e-8, "{again}");
                 assert!(crate::model::distance(flight.state(), &state) < 1e-3, "{again}");
@@ -99,8 +99,11 @@ fn verif_a_state_beyond_the_depth_is_refused_also_from_outside() {
         state[5 + 2 * mode] += 1.01 * depth / slosh[mode];
         flight.set_state(&state);
         let error = flight.check().unwrap_err();
-        let Error::Envelope { variable, value, max, .. } = error else { panic!("{error}") };
-        assert_eq!(variable, name, "{error}");
+        let Error::Envelope { limited, .. } = error else { panic!("{error}") };
+        let LimitedQuantity { kind, value, limits: [_, max] } = limited;
+        assert_eq!(kind, LimitedKind::Slosh(tank), "{error}");
         assert!(value > max && max == depth, "{error}");
+        let told = Message(error).to_string();
+        assert!(told.starts_with(&format!("{name} = ")), "{told}");
     }
 }

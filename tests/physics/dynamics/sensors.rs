@@ -6,6 +6,7 @@ use crate::model::{CONFIGURATIONS, data, flight, options, setup};
 use ahv::dynamics::Outputs;
 use ahv::error::Error;
 use ahv::flight::Setup;
+use ahv::fmu::Message;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{
     Body, Condition, Configuration, Gust, NOMINAL, RIGID, STATES, State, Vehicle,
@@ -289,9 +290,11 @@ fn verif_a_sensor_off_the_body_is_refused_by_name_value_and_range() {
             assert!(text.contains(name) && text.contains(told), "{text}");
         }
         let error = setup(&[(name, length + 1e-9)]).fly().unwrap_err();
-        let Error::Value { variable: told, value, expected } = &error else { panic!("{error}") };
-        assert_eq!((told.as_str(), *value), (name, length + 1e-9));
-        assert!(expected.contains(&format!("from 0 to {length} m")), "{expected}");
+        let Error::SensorOffBody { station_m, .. } = error else { panic!("{error}") };
+        assert_eq!(station_m, length + 1e-9);
+        let told = Message(error).to_string();
+        assert!(told.starts_with(&format!("{name} = {station_m} is refused")), "{told}");
+        assert!(told.contains(&format!("from 0 to {length} m")), "{told}");
         for end in [0.0, length] {
             setup(&[(name, end)]).fly().unwrap();
         }

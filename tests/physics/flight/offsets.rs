@@ -1,8 +1,9 @@
 //! Offsets of the initial state: each moves what it is named after, and nothing else.
 
 use crate::model::{AERO_SETS, CONFIGURATIONS, data, setup};
-use ahv::error::Error;
+use ahv::error::{Error, StartCause};
 use ahv::flight::{Flight, INPUTS};
+use ahv::fmu::Message;
 use ahv::vehicle::{Configuration, RIGID};
 
 /// Of sums over five modes.
@@ -125,10 +126,10 @@ fn verif_without_offsets_the_start_is_the_trim_bit_for_bit() {
     }
 }
 
-/// The refusal of an initialisation: name, value and what is expected.
-fn refused(settings: &[(&str, f64)]) -> (String, f64, String) {
+/// The refusal of a start: what leads there, and the text.
+fn refused(settings: &[(&str, f64)]) -> (StartCause, String) {
     match setup(settings).fly().unwrap_err() {
-        Error::Value { variable, value, expected } => (variable, value, expected),
+        error @ Error::StartOutside { cause, .. } => (cause, Message(error).to_string()),
         error => panic!("{settings:?}: {error}"),
     }
 }
@@ -144,10 +145,11 @@ fn verif_an_offset_out_of_the_envelope_is_refused_by_name_value_and_range() {
         let set = AERO_SETS.into_iter().find(|set| f64::from(*set as i32) == start[1].1).unwrap();
         for value in [0.3, -0.2] {
             let settings = [&start[..], &[("alpha_offset", value)]].concat();
-            let (variable, told, expected) = refused(&settings);
-            assert_eq!((variable.as_str(), told), ("alpha_offset", value), "{settings:?}");
+            let (cause, told) = refused(&settings);
+            assert_eq!(cause, StartCause::IncidenceOffset(value), "{settings:?}");
             let limits = range(data.aero(set).envelope.alpha_rad.value);
-            assert!(expected.contains(&limits) && expected.contains("alpha "), "{expected}");
+            assert!(told.starts_with(&format!("alpha_offset = {value} ")), "{told}");
+            assert!(told.contains(&limits) && told.contains("makes alpha "), "{told}");
         }
     }
 }
@@ -177,10 +179,14 @@ fn verif_an_offset_beyond_the_liquids_depth_is_refused_by_name_value_and_range()
                     let inside = shown(&mut flight(&at(edge - 1e-9 * side)), name);
                     assert!((inside - side * depth).abs() < 1e-8, "{inside}");
                     let value = edge + 1e-9 * side;
-                    let (variable, told, expected) = refused(&at(value));
-                    assert_eq!((variable, told), (format!("{name}_offset"), value));
+                    let (cause, told) = refused(&at(value));
+                    assert_eq!(cause, StartCause::SloshOffset(tank, value));
                     let limits = range([-depth, depth]);
-                    assert!(expected.contains(&limits) && expected.contains(name), "{expected}");
+                    assert!(told.starts_with(&format!("{name}_offset = ")), "{told}");
+                    assert!(
+                        told.contains(&limits) && told.contains(&format!("makes {name} ")),
+                        "{told}"
+                    );
                 }
             }
         }

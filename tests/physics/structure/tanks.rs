@@ -81,7 +81,7 @@ fn verif_spring_and_damper_give_frequency_and_ratio() {
 fn verif_weightless_liquid_is_refused_unless_its_frequency_is_given() {
     let weightless = SloshSettings { gravity_m_per_s2: -0.1, ..SETTINGS };
     let refused = SloshingTank::pair(&vehicle(), 1.0, &weightless);
-    assert!(matches!(refused, Err(Error::Value { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(Error::NoSloshFrequency { .. })), "{refused:?}");
     let given = SloshSettings { frequency_rad_per_s: 2.0, ..weightless };
     assert!(SloshingTank::pair(&vehicle(), 1.0, &given).is_ok());
 }

@@ -111,7 +111,8 @@ impl<'a> Computation<'a> {
     fn best(&self, trade_off: &TradeOff) -> Result<[OperatingPoint; 3]> {
         let of = |configuration| {
             let options = VehicleOptions { configuration, aero: AeroSet::Xu2015, ..self.base };
-            let definition = VehicleDefinition::with_coefficients(&self.data, &options, &trade_off.best_set);
+            let definition =
+                VehicleDefinition::with_coefficients(&self.data, &options, &trade_off.best_set);
             OperatingPoint::of(definition, Gamma::Printed)
         };
         let [rigid, even, slosh] = CONFIGURATIONS.map(of);
