@@ -1,6 +1,6 @@
 //! The C functions under abuse: many random calls, and fewer under tools that watch the memory.
 
-use crate::workspace::{cargo, check, target, works};
+use crate::workspace::{cargo, check, target, variable, works};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
@@ -26,8 +26,12 @@ fn tests(program: &str) -> Command {
 
 /// Random sequences of calls, at full speed, and what only an optimised library can do wrong.
 pub fn fuzz() -> Result<()> {
-    let wanted = std::env::var(SEQUENCES).unwrap_or_else(|_| FUZZ.to_string());
-    check(tests("abi").args(["--release", "--", "--nocapture", "fuzz::"]).env(SEQUENCES, wanted))?;
+    let wanted = variable(SEQUENCES).unwrap_or_else(|| FUZZ.into());
+    check(
+        tests("abi")
+            .args(["--release", "--", "--nocapture", "random_calls::"])
+            .env(SEQUENCES, wanted),
+    )?;
     check(tests("abi_host").args(["--release", "--", "--nocapture"]))
 }
 
@@ -74,7 +78,7 @@ pub fn valgrind() -> Result<()> {
     check(
         tests("abi")
             .args(["--config", runner, "--", "--nocapture", "--test-threads=1"])
-            .args(["fuzz::", "state::"])
+            .args(["random_calls::", "state::"])
             .env(SEQUENCES, WATCHED),
     )
 }

@@ -1,5 +1,7 @@
 //! `cargo ahv`.
 
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
+
 use ahv_tool::cli::{Cli, Command};
 use ahv_tool::{describe, fly, modes, own, package, poles, research, say, test, trim, workspace};
 use anyhow::Result;
