@@ -23,6 +23,7 @@
 //! liquid-solid coupling", Trans. Nanjing Univ. Aero. Astro. 32(1), 2015, 81-88.
 
 #![deny(unsafe_code)]
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods, clippy::disallowed_types)]
 
 pub mod air;
 pub mod data;

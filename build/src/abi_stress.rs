@@ -1,6 +1,6 @@
-//! The C functions under abi_stress: many random calls, and fewer under tools that watch the memory.
+//! The C functions under stress: many random calls, and fewer under tools that watch the memory.
 
-use crate::workspace::{cargo, check, target, works};
+use crate::workspace::{cargo, check, target, variable, works};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
@@ -26,11 +26,10 @@ fn tests(program: &str) -> Command {
 
 /// Random sequences of calls, at full speed, and what only an optimised library can do wrong.
 pub fn fuzz() -> Result<()> {
-    let wanted =
-        std::env::var(SEQUENCES_VARIABLE).unwrap_or_else(|_| DEFAULT_SEQUENCES.to_string());
+    let wanted = variable(SEQUENCES_VARIABLE).unwrap_or_else(|| DEFAULT_SEQUENCES.into());
     check(
         tests("abi")
-            .args(["--release", "--", "--nocapture", "fuzz::"])
+            .args(["--release", "--", "--nocapture", "random_calls::"])
             .env(SEQUENCES_VARIABLE, wanted),
     )?;
     check(tests("abi_host").args(["--release", "--", "--nocapture"]))
@@ -79,7 +78,7 @@ pub fn valgrind() -> Result<()> {
     check(
         tests("abi")
             .args(["--config", runner, "--", "--nocapture", "--test-threads=1"])
-            .args(["fuzz::", "state::"])
+            .args(["random_calls::", "state::"])
             .env(SEQUENCES_VARIABLE, VALGRIND_SEQUENCES),
     )
 }

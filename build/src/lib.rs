@@ -1,6 +1,7 @@
 //! `cargo ahv`: describes, packages, flies and tests the ahv FMU. crates/research shares what is here.
 
 #![allow(missing_docs)]
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
 
 #[macro_use]
 pub mod console;

@@ -1,5 +1,7 @@
 //! `cargo ahv`.
 
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
+
 use ahv_tool::cli::{Cli, Command};
 use ahv_tool::{
     console, describe, fly, modes, own_vehicle, package, poles, research, test, trim, workspace,

@@ -1,7 +1,7 @@
 //! The user's own vehicle: the same command again, by a tool that is built with the user's data.
 
 use crate::cli::Command;
-use crate::workspace::{MAX_DATA_BYTES, cargo, read_text, root, shown, target};
+use crate::workspace::{MAX_DATA_BYTES, cargo, read_text, root, shown, target, variable};
 use ahv::data::{AeroData, DataFile, VehicleData};
 use anyhow::{Context, Result};
 use clap::Args;
@@ -47,7 +47,7 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
         (VEHICLE, &own.vehicle, check::<VehicleData> as fn(&Path) -> Result<PathBuf>),
         (COEFFICIENTS, &own.coefficients, check::<AeroData>),
     ];
-    let given = |name| env::var_os(name).is_some();
+    let given = |name| variable(name).is_some();
     if given(VEHICLE) || given(COEFFICIENTS) || files.iter().all(|(_, file, _)| file.is_none()) {
         return Ok(None);
     }

@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn a_flight_of_many_rows_makes_a_small_picture() {
         let names = ["time", "eta1", "eta2"].map(String::from).to_vec();
-        let wave = |n: i32, rate: f64| (f64::from(n) * rate).sin();
+        let wave = |n: i32, rate: f64| libm::sin(f64::from(n) * rate);
         let rows = (0..200_000).map(|n| vec![f64::from(n) * 1e-3, wave(n, 0.3), wave(n, 0.7)]);
         let record = Record { names, rows: rows.collect() };
         for (file, content) in figures(&record, "many", Path::new("")).unwrap() {

@@ -23,7 +23,7 @@ struct Root {
 
 impl Root {
     fn frequency(self) -> f64 {
-        self.re.hypot(self.im)
+        libm::hypot(self.re, self.im)
     }
 
     fn text(self) -> String {

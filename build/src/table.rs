@@ -36,7 +36,7 @@ pub fn number(value: f64) -> String {
     if value.abs() < NOISE {
         return "0".to_string();
     }
-    let exponent = value.abs().log10().floor();
+    let exponent = libm::log10(value.abs()).floor();
     if (-4.0..6.0).contains(&exponent) {
         let digits = (4.0 - exponent).clamp(0.0, 8.0);
         format!("{value:.*}", digits as usize)

@@ -8,6 +8,7 @@ pub use files::{
     write_together,
 };
 use std::env;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -30,10 +31,16 @@ pub fn locate() -> Result<()> {
     Ok(())
 }
 
+/// What the environment says to this tool; no result depends on it.
+#[expect(clippy::disallowed_methods, reason = "the one place that reads it")]
+pub fn variable(name: &str) -> Option<OsString> {
+    env::var_os(name)
+}
+
 /// Where to look, best first: what Cargo says, the tool's own place, the current directory. The tool
 /// lies elsewhere if `CARGO_TARGET_DIR` is set.
 fn places() -> Vec<PathBuf> {
-    let cargo = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    let cargo = variable("CARGO_MANIFEST_DIR").map(PathBuf::from);
     [cargo, env::current_exe().ok(), env::current_dir().ok()].into_iter().flatten().collect()
 }
 
@@ -60,13 +67,13 @@ pub fn target() -> PathBuf {
 
 /// Cargo takes it from the directory in which it was called.
 fn target_by_environment() -> Option<PathBuf> {
-    let directory = env::var_os("CARGO_TARGET_DIR")?;
+    let directory = variable("CARGO_TARGET_DIR")?;
     std::path::absolute(directory).ok()
 }
 
 /// The Cargo that runs this tool, started in the repository.
 pub fn cargo() -> Command {
-    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    let mut command = Command::new(variable("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
     if let Some(target) = target_by_environment() {
         command.env("CARGO_TARGET_DIR", target);

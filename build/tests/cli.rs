@@ -1,5 +1,4 @@
 //! The tool from outside, as a user types it.
-#![allow(clippy::disallowed_methods)]
 
 mod tool;
 

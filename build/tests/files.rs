@@ -1,5 +1,4 @@
 //! What the tool reads and writes: rubbish is refused, and what was there stays until the new is whole.
-#![allow(clippy::disallowed_methods)]
 
 mod tool;
 

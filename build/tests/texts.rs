@@ -1,5 +1,4 @@
 //! What the pages state and the code decides: variables, limits, methods.
-#![allow(clippy::disallowed_methods)]
 
 use ahv::flight::{INPUT_ORDER, Setup};
 use ahv::solve::DOP853;

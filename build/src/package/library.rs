@@ -5,7 +5,7 @@ use super::platform::{LINUX, Platform, WINDOWS, host};
 use super::windows::Toolchain;
 use crate::describe::MODEL_IDENTIFIER;
 use crate::python::{Environment, environment};
-use crate::workspace::{cargo, root, target};
+use crate::workspace::{cargo, root, target, variable};
 use anyhow::{Context, Result, anyhow, bail};
 use std::ffi::{OsStr, OsString};
 use std::fs;
@@ -91,7 +91,7 @@ fn compile(
 /// Flags of the user, ours, and those that keep the builder's directories out of the library: panic
 /// messages name source files.
 fn rustflags(ours: Vec<OsString>) -> OsString {
-    let home = std::env::var_os("CARGO_HOME")
+    let home = variable("CARGO_HOME")
         .map(PathBuf::from)
         .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
     let mut prefixes =
@@ -101,8 +101,8 @@ fn rustflags(ours: Vec<OsString>) -> OsString {
     prefixes.extend(directories.map(|directory| (directory.path(), "crates")));
     // Of several prefixes that fit, the compiler takes the last.
     prefixes.sort();
-    let user = std::env::var("RUSTFLAGS").unwrap_or_default();
-    let user = user.split_whitespace().map(OsString::from);
+    let user = variable("RUSTFLAGS").unwrap_or_default();
+    let user = user.to_str().unwrap_or_default().split_whitespace().map(OsString::from);
     let remaps = prefixes.iter().map(|(path, name)| remap(path, name));
     let flags: Vec<_> = user.chain(ours).chain(remaps).collect();
     flags.join(OsStr::new("\x1f"))

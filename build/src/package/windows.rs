@@ -1,7 +1,7 @@
 //! Which compiler makes the library for Windows.
 
 use super::platform::WINDOWS;
-use crate::workspace::{cargo, root, target};
+use crate::workspace::{cargo, root, target, variable};
 use anyhow::{Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -27,7 +27,7 @@ pub fn toolchain() -> Result<Toolchain> {
     if output_of(Path::new(LINKER), &["--version"]).is_none() {
         return Err(missing(&format!("the linker {LINKER} is missing")));
     }
-    let own = PathBuf::from(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let own = PathBuf::from(variable("RUSTC").unwrap_or_else(|| "rustc".into()));
     let (mut command, std) = if has_target(&own) {
         let mut command = cargo();
         command.arg("rustc");

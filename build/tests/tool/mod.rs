@@ -1,5 +1,5 @@
 //! The tool, as a user types it, and an FMU for it.
-#![allow(clippy::disallowed_methods, dead_code)]
+#![allow(dead_code)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -117,6 +117,7 @@
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
 
 #![deny(unsafe_code)]
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods, clippy::disallowed_types)]
 
 #[cfg(feature = "package")]
 pub mod archive;

@@ -3,6 +3,12 @@
 //! A package with a `cdylib` and a program that calls [`main`] is all that an FMU needs: `cargo run
 //! --release` builds both and writes the FMU beside them.
 
+#![allow(
+    clippy::disallowed_macros,
+    clippy::disallowed_methods,
+    reason = "a program, not the library: it writes a file and says where"
+)]
+
 use crate::archive::zip;
 use crate::describe::model_description;
 use crate::model::Model;

@@ -17,6 +17,8 @@
 //! `identify xu2015 --check`, run by `tests/committed.rs`. The number of a command is part of the
 //! library: run `cargo ahv describe` after a change.
 
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
+
 #[macro_use(errln, out, outln)]
 extern crate ahv_tool;
 

@@ -1,6 +1,5 @@
 //! The pages that are read in a browser: the report, and the documentation inside the FMU. They hold on a
 //! telephone 400 px wide, as far as that shows without a browser.
-#![allow(clippy::disallowed_methods)]
 
 use std::fs;
 use std::process::Command;

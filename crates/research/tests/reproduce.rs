@@ -1,5 +1,4 @@
 //! The report from outside, as a user asks for it.
-#![allow(clippy::disallowed_methods)]
 
 use serde_json::Value;
 use std::fs;

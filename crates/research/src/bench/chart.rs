@@ -32,10 +32,10 @@ impl Drawing for Precision<'_> {
 
 /// The powers of ten around some values.
 fn decades(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
-    let logs = values.map(f64::log10);
+    let logs = values.map(libm::log10);
     let (least, largest) =
         logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
-    10f64.powf(least.floor())..10f64.powf(largest.ceil())
+    libm::exp10(least.floor())..libm::exp10(largest.ceil())
 }
 
 fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Drawn<B> {
@@ -49,7 +49,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, points: &[Point], scale: u32) -> Draw
         .set_label_area_size(LabelAreaPosition::Left, 64 * scale)
         .set_label_area_size(LabelAreaPosition::Bottom, 44 * scale)
         .build_cartesian_2d(x.log_scale(), y.log_scale())?;
-    let power = |value: &f64| format!("1e{}", value.log10().round());
+    let power = |value: &f64| format!("1e{}", libm::log10(*value).round());
     chart
         .configure_mesh()
         .max_light_lines(0)

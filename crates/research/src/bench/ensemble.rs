@@ -27,6 +27,7 @@ fn fly(mut flight: Flight, number: usize, flights: usize) -> Result<(), ahv::err
 }
 
 /// Flights per second on some threads.
+#[expect(clippy::disallowed_methods, reason = "threads are what is measured")]
 fn rate(start: &Flight, flights: usize, threads: usize) -> Result<f64> {
     let started = Instant::now();
     std::thread::scope(|scope| {

@@ -153,9 +153,9 @@ fn time_for(points: &[&Point], error: f64) -> Option<f64> {
         return Some(first.seconds.least);
     }
     points.windows(2).find(|pair| pair[1].error <= error).map(|pair| {
-        let [x0, x1] = [pair[0].error.ln(), pair[1].error.ln()];
-        let [y0, y1] = [pair[0], pair[1]].map(|point| point.seconds.least.ln());
-        (y0 + (y1 - y0) * (error.ln() - x0) / (x1 - x0)).exp()
+        let [x0, x1] = [pair[0], pair[1]].map(|point| libm::log(point.error));
+        let [y0, y1] = [pair[0], pair[1]].map(|point| libm::log(point.seconds.least));
+        libm::exp(y0 + (y1 - y0) * (libm::log(error) - x0) / (x1 - x0))
     })
 }
 

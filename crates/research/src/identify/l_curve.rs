@@ -139,11 +139,11 @@ impl Model {
     /// The branch of the trade-off that begins at the published set: each point starts from the one
     /// before. It is followed until its knee is known, or to its end. `tell` hears of every point.
     fn branch(&self, until_knee: bool, tell: &dyn Fn(&Point)) -> Result<Vec<Point>> {
-        let decades = (FIRST_WEIGHT / LAST_WEIGHT).log10().round() as i32;
+        let decades = libm::log10(FIRST_WEIGHT / LAST_WEIGHT).round() as i32;
         let mut start = DVector::zeros(MOVABLE.len());
         let mut path: Vec<Point> = Vec::new();
         for step in 0..=decades * STEPS_PER_DECADE {
-            let weight = FIRST_WEIGHT * 10f64.powf(-f64::from(step) / f64::from(STEPS_PER_DECADE));
+            let weight = FIRST_WEIGHT * libm::exp10(-f64::from(step) / f64::from(STEPS_PER_DECADE));
             let end = if knee(&path).is_none() { CONVERGED } else { SHOWN };
             let point = self.fit(&start, &[false; MOVABLE.len()], weight, end)?;
             start.copy_from(&point.fit.point);
@@ -207,7 +207,7 @@ impl Model {
 /// it and its neighbours, positive where the curve bends up. The ends have none.
 pub fn bends(path: &[Point]) -> Vec<f64> {
     let places: Vec<[f64; 2]> =
-        path.iter().map(|point| [point.distance().ln(), point.misfit().ln()]).collect();
+        path.iter().map(|point| [point.distance(), point.misfit()].map(libm::log)).collect();
     let mut bends = vec![0.0; path.len()];
     for (bend, window) in bends.iter_mut().skip(1).zip(places.windows(3)) {
         *bend = curvature([window[0], window[1], window[2]]);
@@ -224,7 +224,7 @@ fn knee(path: &[Point]) -> Option<usize> {
 }
 
 fn curvature([a, b, c]: [[f64; 2]; 3]) -> f64 {
-    let side = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let side = |p: [f64; 2], q: [f64; 2]| libm::hypot(q[0] - p[0], q[1] - p[1]);
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
     2.0 * area / (side(a, b) * side(b, c) * side(c, a))
 }
@@ -235,7 +235,7 @@ mod tests {
 
     #[test]
     fn curvature_of_a_circle_is_one_over_its_radius() {
-        let at = |angle: f64| [2.0 * angle.cos(), 2.0 * angle.sin()];
+        let at = |angle: f64| [2.0 * libm::cos(angle), 2.0 * libm::sin(angle)];
         // The lower left of a circle, passed from the left to the right, is a knee.
         let found = curvature([at(3.5), at(4.0), at(4.5)]);
         assert!((found - 0.5).abs() < 1e-12);

@@ -73,6 +73,7 @@ pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Opt
     let all: Vec<usize> = (0..held.len()).collect();
     let workers = thread::available_parallelism().map_or(1, usize::from);
     let part = |indices: &[usize]| indices.iter().map(|i| column(*i)).collect::<Option<Vec<_>>>();
+    #[expect(clippy::disallowed_methods, reason = "the order of the parts is that of the chunks")]
     let parts: Vec<_> = thread::scope(|scope| {
         let chunks = all.chunks(all.len().div_ceil(workers).max(1));
         let running: Vec<_> = chunks.map(|chunk| scope.spawn(|| part(chunk))).collect();

@@ -104,7 +104,7 @@ impl Origin {
                 *value = if moves_by_difference(key) {
                     *value + doubt * x
                 } else {
-                    *value * (doubt * x).exp()
+                    *value * libm::exp(doubt * x)
                 };
             }
         }
@@ -176,7 +176,7 @@ pub fn written_move(key: &str, [old, new]: [f64; 2]) -> String {
 /// Whether a coordinate moves its number by less than a part of it, or of its doubt.
 pub fn hardly_moves(i: usize, x: f64, least: f64) -> bool {
     let (key, doubt) = MOVABLE[i];
-    if moves_by_difference(key) { x.abs() < least } else { (doubt * x).abs() < least.ln_1p() }
+    if moves_by_difference(key) { x.abs() < least } else { (doubt * x).abs() < libm::log1p(least) }
 }
 
 /// The digits that are written.
@@ -201,7 +201,7 @@ mod tests {
     fn a_moved_number_is_identified_and_says_by_how_much() {
         let origin = Origin::new().unwrap();
         let mut point = DVector::zeros(MOVABLE.len());
-        point[5] = 2f64.ln() / MOVABLE[5].1;
+        point[5] = libm::log(2.0) / MOVABLE[5].1;
         let text = origin.file(&point).unwrap();
         let line = text.lines().find(|line| line.starts_with("structural_damping")).unwrap();
         assert!(line.contains("[0.02, 0.04, 0.02]"), "{line}");

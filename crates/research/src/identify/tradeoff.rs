@@ -123,7 +123,7 @@ impl TradeOff {
 
 /// A step in a coordinate's own measure: a factor, or a difference.
 fn scale(key: &str, step: f64) -> f64 {
-    if moves_by_difference(key) { step } else { step.exp() }
+    if moves_by_difference(key) { step } else { libm::exp(step) }
 }
 
 /// Smallest and largest relative error of some cells.

@@ -19,7 +19,7 @@ fn share(part: f64) -> String {
 
 /// Three digits, for prose.
 fn short(number: f64) -> String {
-    let digits = (2.0 - number.abs().log10().floor()).clamp(0.0, 6.0) as usize;
+    let digits = (2.0 - libm::log10(number.abs()).floor()).clamp(0.0, 6.0) as usize;
     minus(format!("{number:.digits$}"))
 }
 
@@ -135,7 +135,7 @@ pub fn designer(interaction: &Interaction, veering: &[Veering]) -> String {
     }
     let mut slosh = interaction.dipoles.iter().filter(|d| matches!(d.name, Name::Slosh(_)));
     if let (Some(a), Some(b)) = (slosh.next(), slosh.next()) {
-        let frequency = |[re, im]: [f64; 2]| f64::hypot(re, im);
+        let frequency = |[re, im]: [f64; 2]| libm::hypot(re, im);
         let [first, second] = [frequency(a.pole), frequency(b.pole)].map(short);
         let [near, far] = [a.apart, b.apart].map(share);
         text += &format!(

@@ -129,12 +129,12 @@ impl Lab<'_> {
 
     /// Newton's method on the logarithms of both products.
     fn asked(&self, column: usize, printed: &Case) -> Result<Asked> {
-        let wanted = Vector2::new(printed.pole_product().ln(), printed.zero_product().ln());
+        let wanted = Vector2::new(printed.pole_product(), printed.zero_product()).map(libm::log);
         let off = |at: Vector2<f64>| -> Result<Vector2<f64>> {
-            let case = Case::of("", &self.point(column, at[0].exp(), 1.0, at[1])?)?;
-            Ok(Vector2::new(case.pole_product().ln(), case.zero_product().ln()) - wanted)
+            let case = Case::of("", &self.point(column, libm::exp(at[0]), 1.0, at[1])?)?;
+            Ok(Vector2::new(case.pole_product(), case.zero_product()).map(libm::log) - wanted)
         };
-        let mut at = Vector2::new(INERTIA.ln(), if column == 0 { 0.0 } else { 2.0 });
+        let mut at = Vector2::new(libm::log(INERTIA), if column == 0 { 0.0 } else { 2.0 });
         for _ in 0..8 {
             let here = off(at)?;
             let step = 1e-4;
@@ -146,10 +146,10 @@ impl Lab<'_> {
             let jacobian = Matrix2::from_columns(&[slope(0)?, slope(1)?]);
             at -= jacobian.lu().solve(&here).ok_or_else(|| anyhow!("no inertia asked for"))?;
         }
-        let definition = self.definition(column, at[0].exp(), 1.0, at[1]);
+        let definition = self.definition(column, libm::exp(at[0]), 1.0, at[1]);
         let (beam, oscillators) = definition.structure()?;
         let mass_centre_m = beam.mass_properties(&oscillators).centre_m;
-        Ok(Asked { column: COLUMNS[column], inertia: at[0].exp(), mass_centre_m })
+        Ok(Asked { column: COLUMNS[column], inertia: libm::exp(at[0]), mass_centre_m })
     }
 }
 

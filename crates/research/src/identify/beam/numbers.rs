@@ -101,12 +101,12 @@ impl Prior {
         let mut data = self.data.clone();
         let slope = |i: usize| (0..STATIONS).map(move |k| Self::stiffness_slope(i, k) * point[k]);
         data.beam.stiffness_n_m2_per_m.value =
-            (0..STATIONS).map(|i| self.stiffness * slope(i).sum::<f64>().exp()).collect();
+            (0..STATIONS).map(|i| self.stiffness * libm::exp(slope(i).sum())).collect();
         let [fore, aft] = self.beams;
         for (j, (start, beam)) in [(0.0, fore), (fore, aft)].into_iter().enumerate() {
             let tank = &mut data.tank[j];
             tank.centre_m.value = start + beam * (0.5 + CENTRE * point[STATIONS + j]);
-            tank.length_m.value = FILLED * beam * (LENGTH * point[STATIONS + 2 + j]).exp();
+            tank.length_m.value = FILLED * beam * libm::exp(LENGTH * point[STATIONS + 2 + j]);
         }
         let [from, to] = [0, 1].map(|j| data.tank[j].centre_m.value);
         let off = OFF_BALANCE * data.geometry.length_m.value * point[BALANCE];

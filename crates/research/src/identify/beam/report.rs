@@ -58,7 +58,7 @@ pub struct Datum {
 /// The numbers on the scale of their doubts.
 fn scaled(data: &VehicleData) -> DVector<f64> {
     let scaled = values(data).into_iter().zip(names()).map(|(value, (.., scale))| match scale {
-        Scale::Ratio => value.ln(),
+        Scale::Ratio => libm::log(value),
         Scale::Difference => value,
     });
     DVector::from_iterator(names().len(), scaled)
@@ -71,11 +71,11 @@ pub fn sensitivity(model: &Model, vehicle: &VehicleData) -> Result<DMatrix<f64>>
     let free = vec![false; at.len()];
     let logarithms = |point: &DVector<f64>| {
         let moved = point.iter().zip(names()).map(|(value, (.., scale))| match scale {
-            Scale::Ratio => value.exp(),
+            Scale::Ratio => libm::exp(*value),
             Scale::Difference => *value,
         });
         let moved = with_values(vehicle.clone(), &moved.collect::<Vec<_>>());
-        Some(DVector::from_row_slice(&model.found(&moved)?.map(f64::ln)))
+        Some(DVector::from_row_slice(&model.found(&moved)?.map(libm::log)))
     };
     jacobian(&logarithms, &at, &free).ok_or_else(|| anyhow!("no derivative at the solution"))
 }
@@ -91,7 +91,7 @@ impl Number {
     /// An error as a factor or a difference.
     fn within(&self, error: f64) -> String {
         match self.errors_of_logarithm {
-            true => format!("x/ {:.2}", error.exp()),
+            true => format!("x/ {:.2}", libm::exp(error)),
             false => format!("+- {error:.2}"),
         }
     }

@@ -111,7 +111,7 @@ impl Axes<'_> {
                 let words = |value: &f64| format!("{}", (value * 1e9).round() / 1e9);
                 self.mesh(&mut chart, scale, &words, &words, [LABELS, 2 * LABELS])?;
                 let area = chart.plotting_area().strip_coord_spec();
-                (area, self.x.map(f64::log10), self.y.map(f64::log10))
+                (area, self.x.map(libm::log10), self.y.map(libm::log10))
             }
         };
         let plot = Plot { area, scale, x, y };

@@ -50,7 +50,7 @@ impl Shape {
         (0..count)
             .map(|corner| {
                 let angle = f64::to_radians(turn + 360.0 * f64::from(corner) / f64::from(count));
-                let (sin, cos) = angle.sin_cos();
+                let (sin, cos) = libm::sincos(angle);
                 let reach = size * radius;
                 (x + (reach * cos).round() as i32, y + (reach * sin).round() as i32)
             })
@@ -83,7 +83,7 @@ pub fn arrow<B: DrawingBackend>(
 ) -> Drawn<B> {
     let unit = f64::from(scale);
     let length = |pair: &[(i32, i32)]| {
-        f64::from(pair[1].0 - pair[0].0).hypot(f64::from(pair[1].1 - pair[0].1))
+        libm::hypot(f64::from(pair[1].0 - pair[0].0), f64::from(pair[1].1 - pair[0].1))
     };
     let total: f64 = points.windows(2).map(length).sum();
     if total < 26.0 * unit {
@@ -100,7 +100,7 @@ pub fn arrow<B: DrawingBackend>(
     });
     let (Some(tail), Some(tip)) = (at.next(), at.next()) else { return Ok(()) };
     let (dx, dy) = (f64::from(tip.0 - tail.0), f64::from(tip.1 - tail.1));
-    let size = dx.hypot(dy);
+    let size = libm::hypot(dx, dy);
     if size == 0.0 {
         return Ok(());
     }

@@ -20,7 +20,7 @@ pub struct Figure<'a>(pub &'a TradeOff);
 fn decades(values: impl Iterator<Item = f64> + Clone, [below, above]: [f64; 2]) -> [f64; 2] {
     let min = values.clone().fold(f64::INFINITY, f64::min);
     let max = values.fold(0.0, f64::max);
-    [min * 10f64.powf(-below), max * 10f64.powf(above)]
+    [min * libm::exp10(-below), max * libm::exp10(above)]
 }
 
 impl Drawing for Figure<'_> {
@@ -38,9 +38,12 @@ impl Drawing for Figure<'_> {
             y: decades(places.iter().map(|place| place.misfit), [0.12, 0.2]),
         };
         let plot = axes.draw_scaled(&inner, scale, Scale::Logarithmic)?;
-        let at = |distance: f64, misfit: f64| plot.place((distance.log10(), misfit.log10()));
-        let points: Vec<_> =
-            places.iter().map(|place| (place.distance.log10(), place.misfit.log10())).collect();
+        let at =
+            |distance: f64, misfit: f64| plot.place((libm::log10(distance), libm::log10(misfit)));
+        let points: Vec<_> = places
+            .iter()
+            .map(|place| (libm::log10(place.distance), libm::log10(place.misfit)))
+            .collect();
         let style = COLOURS[0].stroke_width(2 * scale);
         for (i, pair) in points.windows(2).enumerate() {
             // Between two valleys there is no compromise.
@@ -53,14 +56,14 @@ impl Drawing for Figure<'_> {
         let unit = scale as i32;
         for (i, place) in places.iter().enumerate() {
             let (x, y) = at(place.distance, place.misfit);
-            let decade = place.weight.log10();
+            let decade = libm::log10(place.weight);
             let whole = (decade - decade.round()).abs() < 1e-6;
             if i == trade_off.knee {
                 continue;
             }
             marker::draw(&plot.area, look(0), (x, y), false, scale)?;
             if whole && (decade.round() % WRITTEN).abs() < 0.5 {
-                let words = format!("weight {}", 10f64.powf(decade.round()));
+                let words = format!("weight {}", libm::exp10(decade.round()));
                 plot.write(&words, (x + 9 * unit, y - 9 * unit), HPos::Left)?;
             }
         }
