@@ -1,22 +1,32 @@
-//! A matrix that couples the states in pairs, as an oscillator couples its coordinate with its rate,
-//! and functions of it.
+//! Block-diagonal matrices of 2 x 2 blocks, one per oscillator, and their phi functions.
+//!
+//! By Cayley and Hamilton a block with trace s and determinant p satisfies L^2 = s L - p, so any power series
+//! of it is a 1 + b L. With z = t L, z^2 = s t z - p t^2 and the recurrence
+//!
+//! ```text
+//! phi_k(z) = sum_n z^n / (n + k)!,   phi_k(z) = z phi_(k+1)(z) + 1/k!
+//! z (a + b z) = -p t^2 b + (a + s t b) z
+//! ```
+//!
+//! phi_4 comes from its Taylor series by Horner's rule, phi_3 to phi_1 from the recurrence (Hochbruck,
+//! Ostermann, Exponential integrators, Acta Numerica 19, 2010, section 2.1). Test:
+//! `verif_the_functions_are_those_of_the_exponential`.
 
-/// An N x N matrix L of 2 x 2 blocks. A state with an even number is paired with the next one.
+/// An N x N matrix L of 2 x 2 blocks: rows and columns 2 i and 2 i + 1 form a block.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blocks<const N: usize> {
-    /// Diagonal.
-    own: [f64; N],
-    /// In each row, the entry in the column of the paired state.
-    cross: [f64; N],
-    /// Sum of the eigenvalues of each state's block.
-    sum: [f64; N],
-    /// Their product.
-    product: [f64; N],
+    diagonal: [f64; N],
+    /// The other entry of each row.
+    off_diagonal: [f64; N],
+    /// Trace of each row's block.
+    trace: [f64; N],
+    /// Determinant of each row's block.
+    determinant: [f64; N],
     /// Largest magnitude of an eigenvalue.
-    pub fastest: f64,
+    pub spectral_radius: f64,
 }
 
-/// Each state's partner in its place.
+/// Exchanges the two entries of each pair.
 #[inline(always)]
 fn swapped<T: Copy, const N: usize>(x: &[T; N]) -> [T; N] {
     const { assert!(N.is_multiple_of(2), "states come in pairs") }
@@ -24,21 +34,26 @@ fn swapped<T: Copy, const N: usize>(x: &[T; N]) -> [T; N] {
 }
 
 impl<const N: usize> Blocks<N> {
-    /// The blocks of a matrix, whose other entries are left out.
+    /// The diagonal blocks of a matrix; its other entries are ignored.
     pub fn of(matrix: impl Fn(usize, usize) -> f64) -> Self {
         let partners: [usize; N] = swapped(&std::array::from_fn(|i| i));
-        let own = std::array::from_fn(|i| matrix(i, i));
-        let cross = std::array::from_fn(|i| matrix(i, partners[i]));
-        let [other, back] = [swapped(&own), swapped(&cross)];
-        let sum: [f64; N] = std::array::from_fn(|i| own[i] + other[i]);
-        let product: [f64; N] = std::array::from_fn(|i| own[i] * other[i] - cross[i] * back[i]);
-        let largest = |(sum, product): (&f64, &f64)| {
-            let half = 0.5 * sum.abs();
-            let apart = half * half - product;
-            if apart < 0.0 { libm::sqrt(*product) } else { half + libm::sqrt(apart) }
+        let diagonal = std::array::from_fn(|i| matrix(i, i));
+        let off_diagonal = std::array::from_fn(|i| matrix(i, partners[i]));
+        let [other, back] = [swapped(&diagonal), swapped(&off_diagonal)];
+        let trace: [f64; N] = std::array::from_fn(|i| diagonal[i] + other[i]);
+        let determinant: [f64; N] =
+            std::array::from_fn(|i| diagonal[i] * other[i] - off_diagonal[i] * back[i]);
+        let largest = |(trace, determinant): (&f64, &f64)| {
+            let half = 0.5 * trace.abs();
+            let discriminant = half * half - determinant;
+            if discriminant < 0.0 {
+                libm::sqrt(*determinant)
+            } else {
+                half + libm::sqrt(discriminant)
+            }
         };
-        let fastest = sum.iter().zip(&product).map(largest).fold(0.0, f64::max);
-        Self { own, cross, sum, product, fastest }
+        let spectral_radius = trace.iter().zip(&determinant).map(largest).fold(0.0, f64::max);
+        Self { diagonal, off_diagonal, trace, determinant, spectral_radius }
     }
 
     /// L x.
@@ -47,17 +62,16 @@ impl<const N: usize> Blocks<N> {
         let partner = swapped(x);
         let mut product = [0.0; N];
         for i in 0..N {
-            product[i] = self.own[i] * x[i] + self.cross[i] * partner[i];
+            product[i] = self.diagonal[i] * x[i] + self.off_diagonal[i] * partner[i];
         }
         product
     }
 }
 
-/// A function of L: a 2 x 2 block meets its own characteristic equation (Cayley, Hamilton), so
-/// whatever is made of it is a multiple of itself and of one.
+/// A function of [`Blocks`]: in each block a multiple of the identity plus a multiple of L.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MatrixFunction<const N: usize> {
-    /// Multiple of one, for each state's block.
+    /// Multiple of the identity, for each row's block.
     pub identity: [f64; N],
     /// Multiple of L.
     pub linear: [f64; N],
@@ -86,27 +100,26 @@ impl<const N: usize> MatrixFunction<N> {
     }
 }
 
-/// Functions that [`phis`] gives.
+/// Number of functions that [`phis`] returns.
 pub const PHIS: usize = 4;
-/// A term of a series below this does not count.
+/// Size below which a term of the Taylor series is dropped.
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// phi_k(t L) for k = 1 to 4, where phi_k(z) = sum over n of z^n / (n + k)!; by their series, which
-/// keep their digits while t L stays below about 4.
+/// phi_k(t L) for k = 1 to 4. The Taylor series loses no digits to cancellation for t |L| below about 4.
 #[inline(always)]
 pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [MatrixFunction<N>; PHIS] {
-    let (sum, product) = (blocks.sum.map(|s| s * t), blocks.product.map(|p| p * t * t));
-    // In multiples of one and z = t L: `factor` z f + `shift`.
+    let (trace, determinant) = (blocks.trace.map(|s| s * t), blocks.determinant.map(|p| p * t * t));
+    // factor z f + shift, in multiples of 1 and z = t L.
     let climb = |f: &MatrixFunction<N>, factor: f64, shift: f64| MatrixFunction {
-        identity: std::array::from_fn(|i| shift - factor * product[i] * f.linear[i]),
-        linear: std::array::from_fn(|i| factor * (f.identity[i] + sum[i] * f.linear[i])),
+        identity: std::array::from_fn(|i| shift - factor * determinant[i] * f.linear[i]),
+        linear: std::array::from_fn(|i| factor * (f.identity[i] + trace[i] * f.linear[i])),
     };
-    let (size, mut term, mut last) = (t * blocks.fastest, 1.0, PHIS);
+    let (size, mut term, mut last) = (t * blocks.spectral_radius, 1.0, PHIS);
     while term > NEGLIGIBLE {
         last += 1;
         term *= size / last as f64;
     }
-    // 4! phi_4 by Horner's rule, the others by phi_k = z phi_(k+1) + 1/k!.
+    // 4! phi_4 = 1 + z/5 (1 + z/6 (1 + ...)).
     let mut fourth = MatrixFunction { identity: [1.0; N], linear: [0.0; N] };
     for n in (PHIS + 1..=last).rev() {
         fourth = climb(&fourth, 1.0 / n as f64, 1.0);

@@ -1,10 +1,20 @@
-//! Coefficients of DOP853, the eighth-order method of Dormand and Prince with error estimates of
-//! orders five and three (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I,
-//! 2nd ed., section II.5, appendix).
+//! DOP853: the explicit Runge-Kutta method of order 8 of Dormand and Prince, 12 stages, with embedded error
+//! estimates of orders 5 and 3.
+//!
+//! ```text
+//! k_i = f(t + c_i h, x + h sum_{j<i} a_ij k_j),   next = x + h sum_i b_i k_i
+//! err_5 = h sum_i error_i k_i,                    err_3 = h sum_i error_low_i k_i
+//! err = err_5^2 / sqrt(err_5^2 + 0.01 err_3^2)
+//! ```
+//!
+//! Sources: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., 1993: the
+//! method in section II.5, err in eq. (II.10.17), the digits in the program DOP853 of the appendix; here they
+//! are rounded to double precision. Tests: `verif_the_tableau_meets_the_order_conditions_of_quadrature`,
+//! `verif_the_method_converges_with_order_eight`.
 
 use super::integrate::Tableau;
 
-/// The method for inputs that move: its twelve stages notice where one of them meets its limit.
+/// The method for inputs that vary within a step: its twelve stages resolve an input that saturates.
 pub const DOP853: Tableau<12> = Tableau {
     a: [
         [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

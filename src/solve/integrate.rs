@@ -1,18 +1,26 @@
-//! Integration of x' = f(t, x) over one interval, landing exactly on its end. Knows no aircraft.
+//! Integration of x' = f(t, x) over one interval, with step-size control.
+//!
+//! ```text
+//! err = max_i |e_i| / (tolerance (max(|x_i|, |next_i|) + nominal_i))      accepted if err <= 1
+//! next step = h clamp(0.9 err^(-1/p), 0.2, 6)                             err falls as h^p
+//! ```
+//!
+//! (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., section II.4). What remains of an
+//! interval is divided into equal steps, so the last one ends exactly at its end.
 
-/// What is integrated.
+/// The system that is integrated.
 pub trait System<const N: usize> {
-    /// f(t, x); zero for states that are not in use.
+    /// f(t, x); zero for unused states.
     fn derivatives(&self, t: f64, x: &[f64; N]) -> [f64; N];
     /// Whether the model still holds at t and x; an accepted step never ends where it does not.
     fn holds(&self, t: f64, x: &[f64; N]) -> bool;
-    /// Typical size of each state, for the tolerance.
+    /// Nominal value of each state, for the tolerance.
     fn nominal(&self) -> &[f64; N];
-    /// Whether f has numbers at x: a trial state may be anywhere.
+    /// Whether f is finite at x: a trial state may lie far outside the model's range.
     fn in_domain(&self, _x: &[f64; N]) -> bool {
         true
     }
-    /// Whether neither f nor `holds` changes with time: what a step leaves as it is then stays so.
+    /// True if f and `holds` do not depend on time; an unchanged state is then an equilibrium.
     fn is_autonomous(&self) -> bool {
         false
     }
@@ -21,13 +29,13 @@ pub trait System<const N: usize> {
 /// How an interval ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Outcome {
-    /// At its end.
+    /// The end was reached.
     Complete,
-    /// At the last instant at which the model holds.
+    /// The model ceases to hold after this instant.
     Invalid(f64),
-    /// Nowhere: no step holds the tolerance from this instant on.
+    /// No step of useful length meets the tolerance at this instant.
     StepTooSmall(f64),
-    /// At this instant, after [`MAX_TRIALS`].
+    /// [`MAX_TRIALS`] steps reached this instant only.
     TooManySteps(f64),
 }
 
@@ -41,48 +49,48 @@ pub struct Tableau<const S: usize> {
     pub c: [f64; S],
     /// Weights of the error estimate of the higher embedded order.
     pub error: [f64; S],
-    /// Weights of a second estimate of lower order, which steadies the first; zeros for none.
+    /// Weights of a second estimate of lower order; zeros for none. See [`super::DOP853`].
     pub error_low: [f64; S],
-    /// The estimate falls as h to this power.
+    /// Power of h with which the estimate falls.
     pub error_order: i32,
 }
 
-/// What a trial step comes to.
+/// Result of a trial step.
 pub struct Trial<const N: usize> {
     /// State at its end.
     pub next: [f64; N],
     /// Derivatives there, if the method needs them.
     pub slope: Option<[f64; N]>,
-    /// Its error over the tolerance.
+    /// Error over the tolerance.
     pub error: f64,
-    /// The error falls as the step's length to this power.
+    /// Power of h with which the error falls.
     pub order: i32,
 }
 
-/// A step to be tried.
+/// A trial step.
 pub struct Attempt<'a, S, const N: usize> {
-    /// What moves.
+    /// System.
     pub system: &'a S,
-    /// Where from.
+    /// State at its start.
     pub x: &'a [f64; N],
-    /// Derivatives there.
+    /// Derivatives at its start.
     pub slope: &'a [f64; N],
-    /// When from, s.
+    /// Time at its start, s.
     pub t: f64,
-    /// For how long, s.
+    /// Length, s.
     pub h: f64,
     /// Relative tolerance.
     pub tolerance: f64,
 }
 
-/// Rates where f has no numbers, per second: no step that meets them holds its tolerance, and
-/// nothing made of them overflows.
-const WILD: f64 = 1e30;
+/// Rates in place of f outside its domain, per second: large enough for the step to be rejected, small
+/// enough that nothing computed from them overflows.
+const OUT_OF_DOMAIN_RATE: f64 = 1e30;
 
-/// f(t, x) at any x.
+/// f(t, x), or [`OUT_OF_DOMAIN_RATE`].
 #[inline(always)]
 fn rates<S: System<N>, const N: usize>(system: &S, t: f64, x: &[f64; N]) -> [f64; N] {
-    if system.in_domain(x) { system.derivatives(t, x) } else { [WILD; N] }
+    if system.in_domain(x) { system.derivatives(t, x) } else { [OUT_OF_DOMAIN_RATE; N] }
 }
 
 impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
@@ -92,15 +100,14 @@ impl<S: System<N>, const N: usize> Attempt<'_, S, N> {
         rates(self.system, t, x)
     }
 
-    /// Largest error of a state over the tolerance, if the step ends in `next` and the error grew by
-    /// `rates`, 1/s.
+    /// err of a step that ends in `next` with the errors h `rates`.
     #[inline(always)]
     pub fn error(&self, next: &[f64; N], rates: &[f64; N]) -> f64 {
         let nominal = self.system.nominal();
         let mut largest = 0.0;
         for i in 0..N {
             let size = nominal[i] + self.x[i].abs().max(next[i].abs());
-            largest = worse(largest, self.h / (self.tolerance * size) * rates[i]);
+            largest = larger_or_nan(largest, self.h / (self.tolerance * size) * rates[i]);
         }
         largest
     }
@@ -112,11 +119,11 @@ pub trait Method<const N: usize> {
     fn max_step(&self) -> f64 {
         f64::INFINITY
     }
-    /// Where a step leads, and how far it may be off.
+    /// Takes a trial step.
     fn trial<S: System<N>>(&mut self, attempt: &Attempt<S, N>) -> Trial<N>;
 }
 
-/// Step control: keeps the proposal for the next step between intervals.
+/// Step-size control. The proposed step is kept between intervals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Integrator {
     /// Relative tolerance per step, with respect to |x| + nominal.
@@ -125,32 +132,28 @@ pub struct Integrator {
     pub proposal: f64,
 }
 
-/// Aimed share of the tolerance: the next step should pass at the first try.
+/// Safety factor of the next step.
 const SAFETY: f64 = 0.9;
-/// Largest fall and rise of the step from one to the next (Hairer, Norsett, Wanner, Solving
-/// Ordinary Differential Equations I, 2nd ed., section II.4).
-const FACTORS: [f64; 2] = [0.2, 6.0];
-/// A step shorter than this, s, or than the resolution of time below, makes no progress.
-const SMALLEST: f64 = 1e-13;
-/// Roundings of the time that a step must be worth.
-const ROUNDINGS: f64 = 8.0;
-/// The instant at which the model ceases to hold is located to this length, s.
-const EXIT_RESOLUTION: f64 = 1e-9;
-/// Trials in one interval: seconds of computing, and hours of flight. A stable vehicle never leaves its
-/// envelope, so a longer interval would not end.
+/// Limits of the ratio of successive steps.
+const STEP_FACTORS: [f64; 2] = [0.2, 6.0];
+/// Shortest step, s.
+const MIN_STEP_S: f64 = 1e-13;
+/// Shortest step in units of the rounding error of time.
+const MIN_STEP_ROUNDINGS: f64 = 8.0;
+/// Resolution of the instant at which the model ceases to hold, s.
+const EXIT_RESOLUTION_S: f64 = 1e-9;
+/// Limit of trial steps in one interval, hours of flight: otherwise the interval of a stable vehicle could be
+/// endless.
 pub const MAX_TRIALS: usize = 1_000_000;
 
 impl Integrator {
-    /// A fresh integrator; `proposal` (s) is only a first guess.
+    /// An integrator with a first guess of the step, s.
     pub fn new(tolerance: f64, proposal: f64) -> Self {
         Self { tolerance, proposal }
     }
 
-    /// Moves `x` from `start` to `end`. `first` holds f(start, x) if the caller knows it; on return
+    /// Integrates `x` from `start` to `end`. `first` holds f(start, x) if the caller knows it; on return
     /// it holds f at the state reached, if the method computes that.
-    ///
-    /// The rest of the interval is cut into equal steps, none longer than the proposal, so no
-    /// sliver is left at its end.
     pub fn advance<const N: usize>(
         &mut self,
         method: &mut impl Method<N>,
@@ -160,7 +163,7 @@ impl Integrator {
         first: &mut Option<[f64; N]>,
     ) -> Outcome {
         let mut t = start;
-        // First instant at which the model is known not to hold.
+        // Earliest instant at which the model is known not to hold.
         let mut invalid = f64::INFINITY;
         let mut slope = first.unwrap_or_else(|| rates(system, t, x));
         for _ in 0..MAX_TRIALS {
@@ -171,29 +174,29 @@ impl Integrator {
             let remaining = target - t;
             let pieces = libm::ceil(remaining / self.proposal.min(method.max_step())).max(1.0);
             let (mut h, last) = (remaining / pieces, pieces == 1.0);
-            let resolution = ROUNDINGS * f64::EPSILON * t.abs();
+            let resolution = MIN_STEP_ROUNDINGS * f64::EPSILON * t.abs();
             if invalid <= end {
-                if remaining < EXIT_RESOLUTION.max(4.0 * resolution) {
+                if remaining < EXIT_RESOLUTION_S.max(4.0 * resolution) {
                     *first = Some(slope);
                     return Outcome::Invalid(t);
                 }
                 h = h.min(0.5 * remaining);
             }
-            if h < SMALLEST.max(resolution) && h < remaining {
+            if h < MIN_STEP_S.max(resolution) && h < remaining {
                 *first = Some(slope);
                 return Outcome::StepTooSmall(t);
             }
             let tolerance = self.tolerance;
             let trial = method.trial(&Attempt { system, x, slope: &slope, t, h, tolerance });
             let error = trial.error;
-            // One that is no number counts as far too long a step.
+            // NaN counts as an infinite error.
             let factor = if error == 0.0 {
-                FACTORS[1]
+                STEP_FACTORS[1]
             } else if error.is_finite() {
                 let exponent = -1.0 / f64::from(trial.order);
-                (SAFETY * libm::pow(error, exponent)).clamp(FACTORS[0], FACTORS[1])
+                (SAFETY * libm::pow(error, exponent)).clamp(STEP_FACTORS[0], STEP_FACTORS[1])
             } else {
-                FACTORS[0]
+                STEP_FACTORS[0]
             };
             let wanted = h * factor;
             if error.is_nan() || error > 1.0 {
@@ -201,16 +204,15 @@ impl Integrator {
                 continue;
             }
             if !system.holds(t + h, &trial.next) {
-                // Rounding may put t + h beyond the end of the interval, where nothing looks for it.
+                // Rounding may put t + h beyond the end of the interval.
                 invalid = target.min(t + h);
                 continue;
             }
-            // A step cut by the interval's end says nothing against the longer proposal.
+            // A step shortened by the interval's end does not shorten the proposal.
             self.proposal = if factor >= 1.0 { wanted.max(self.proposal) } else { wanted };
-            // The steps to come would be this one again, as many as there are.
-            let rests =
+            let equilibrium =
                 system.is_autonomous() && trial.next == *x && self.proposal >= method.max_step();
-            t = if rests || last && invalid > end { end } else { t + h };
+            t = if equilibrium || last && invalid > end { end } else { t + h };
             *x = trial.next;
             *first = trial.slope;
             if t < end {
@@ -240,20 +242,20 @@ impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
             // Hairer, Norsett, Wanner, 2nd ed., eq. (II.10.17).
             _ => high * high / libm::sqrt(high * high + 0.01 * low * low).max(f64::MIN_POSITIVE),
         };
-        // No stage has met the step's end.
+        // No stage has evaluated f at `next`.
         let error = if attempt.system.in_domain(&next) { error } else { f64::INFINITY };
         Trial { next, slope: None, error, order: self.error_order }
     }
 }
 
-/// Larger of two magnitudes; unlike `f64::max` it keeps a NaN.
+/// Larger of two magnitudes; unlike `f64::max` it returns NaN if either is.
 #[inline(always)]
-fn worse(largest: f64, value: f64) -> f64 {
+fn larger_or_nan(largest: f64, value: f64) -> f64 {
     let magnitude = value.abs();
     if magnitude > largest || magnitude.is_nan() { magnitude } else { largest }
 }
 
-/// sum_j weights_j stages_j. Over all states, in use or not: a fixed length keeps the sum in registers.
+/// sum_j weights_j stages_j, over all N states: a fixed length keeps the sum in registers.
 #[inline]
 fn combine<const N: usize>(stages: &[[f64; N]], weights: &[f64]) -> [f64; N] {
     let mut sum = [0.0; N];

@@ -1,10 +1,12 @@
-//! Numbers that carry derivatives, and integration of x' = f(t, x). Knows no aircraft.
+//! Dual numbers, and integration of x' = f(t, x). Independent of the vehicle.
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `scalar` | numbers, plain and dual |
-//! | `integrate`, `dop853` | one interval, landing exactly on its end |
-//! | `exponential`, `decoupling`, `blocks` | the oscillators exactly, the rest as a polynomial |
+//! | `scalar` | real and dual numbers |
+//! | `integrate` | step-size control over one interval |
+//! | `dop853` | explicit Runge-Kutta method of order 8 |
+//! | `exponential` | exponential Runge-Kutta method with a frozen linear part |
+//! | `decoupling`, `blocks` | its block diagonalisation and phi functions |
 
 mod blocks;
 mod decoupling;

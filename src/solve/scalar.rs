@@ -1,18 +1,17 @@
-//! The number type of the equations: `f64` to fly, [`Dual`] for exact derivatives.
+//! The number type of the equations: `f64` for simulation, [`Dual`] for exact derivatives.
 //!
-//! Elementary functions come from the `libm` crate, never from the platform, so that every
-//! platform computes the same bits. This is why the dual numbers are ours: the well-known crates
-//! call the platform's functions.
+//! Elementary functions come from the `libm` crate, so that every platform computes the same bits. The
+//! well-known crates for dual numbers call the platform's functions instead.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A number that coefficients of type `C` can be applied to: plain ones, or its own kind.
+/// A number that can be multiplied by coefficients of type `C`: `f64`, or its own type.
 pub trait Over<C>: Mul<C, Output = Self> {
-    /// A coefficient as such a number.
+    /// Converts a coefficient.
     fn of(coefficient: C) -> Self;
 }
 
-/// What the equations ask of a number.
+/// The operations that the equations use.
 pub trait Scalar:
     Copy
     + Default
@@ -31,7 +30,7 @@ pub trait Scalar:
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
     fn value(self) -> f64;
-    /// A function of this number, by its value and its slope here.
+    /// g(self), from the value and the derivative of g at self (chain rule).
     fn chain(self, value: f64, slope: f64) -> Self;
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
@@ -39,7 +38,7 @@ pub trait Scalar:
     fn sqrt(self) -> Self;
     /// Arc tangent.
     fn atan(self) -> Self;
-    /// Whether it is zero in every way, so that nothing that it drives need be computed.
+    /// Whether value and derivatives are zero.
     fn is_zero(self) -> bool;
 }
 

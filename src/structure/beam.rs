@@ -1,24 +1,31 @@
-//! The free-free beam: equal Euler-Bernoulli elements with sloshing masses hung on them. Eqs
-//! (1)-(2) of the paper.
+//! The free-free beam: equal Euler-Bernoulli elements with sloshing masses at nodes. Eqs (1)-(2) of the
+//! paper.
 //!
 //! A displacement is a slice `[w_0, theta_0, w_1, theta_1, ...]` over the nodes, nose first:
 //! deflection in m, up positive, and slope `dw/dx` in rad; a load is `[force, moment, ...]`, N/m
-//! and N m/m, in the same order. Everything is per metre of vehicle width.
+//! and N m/m, in the same order. All quantities are per metre of vehicle width.
 //!
 //! The stiffness matrix K is never assembled: with 500 cubic elements its condition number is
-//! near 1e13, and a factorisation loses the digits that the low modes live on. A beam without
-//! supports is statically determinate, so [`Beam::deflect`] integrates shear, moment, curvature
-//! and slope from the nose instead. Between loaded nodes the deflection *is* a cubic: this is the
-//! exact inverse of K on self-equilibrated loads, at O(n) and to almost the last bit.
+//! near 1e13, and a factorisation would lose the digits of the low modes. A free-free beam is statically
+//! determinate, so [`Beam::deflect`] integrates shear, moment, curvature and slope from the nose:
+//!
+//! ```text
+//! Q' = p,   (EI w'')' = Q,   over an element of length l with constant EI:
+//! w     <- w + l theta + (l^2 / EI) (M/2 + Q l/6)
+//! theta <- theta + (l / EI) (M + Q l/2),   M <- M + Q l
+//! ```
+//!
+//! The deflection between loaded nodes is a cubic, so this is the exact inverse of K on self-equilibrated
+//! loads, in O(n) operations and almost to the last bit.
 
 use super::mass_correction::MassCorrection;
 use super::tanks::{SloshingTank, full_mass_kg_per_m, propellant_kg_per_m};
 use crate::data::VehicleData;
 
-/// Sloshing mass on a spring and a damper below a node; it moves vertically.
+/// Sloshing mass on a spring and a damper at a node; it moves vertically.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Oscillator {
-    /// Node it hangs on.
+    /// Node of attachment.
     pub node: usize,
     /// Mass, kg/m.
     pub mass: f64,
@@ -48,20 +55,20 @@ pub struct Beam {
     pub stiffness: Vec<f64>,
     /// Mass per length of each element, kg/m^2.
     pub density: Vec<f64>,
-    /// Of the rigid body, beyond those of the density.
+    /// Correction of mass centre and inertia.
     pub correction: MassCorrection,
 }
 
 impl Beam {
-    /// All mass on board spread like that of the full vehicle: configuration `EvenMassBeam`.
+    /// All mass distributed as in the full vehicle: configuration `EvenMassBeam`.
     pub fn even(data: &VehicleData, fuel_fraction: f64) -> Self {
         let dry = 1.0 - data.mass.propellant_fraction.value;
         let scale = dry + propellant_kg_per_m(data, fuel_fraction) / full_mass_kg_per_m(data);
         Self::with_structure(data, scale)
     }
 
-    /// Structure and frozen liquid; the sloshing masses come on top, see [`Beam::attach`]:
-    /// configuration `SloshBeam`.
+    /// Structure and frozen liquid, without the sloshing masses ([`Beam::attach`]): configuration
+    /// `SloshBeam`.
     pub fn slosh(data: &VehicleData, tanks: &[SloshingTank; 2]) -> Self {
         let mut beam = Self::with_structure(data, 1.0 - data.mass.propellant_fraction.value);
         for tank in tanks {
@@ -88,7 +95,7 @@ impl Beam {
         beam
     }
 
-    /// Adds a uniform density over `[from, to]`; an element in part inside gets its average.
+    /// Adds a uniform density over `[from, to]`; a partly covered element gets the average.
     fn spread(&mut self, density: f64, from: f64, to: f64) {
         for (e, total) in self.density.iter_mut().enumerate() {
             let start = e as f64 * self.element_m;
@@ -133,7 +140,7 @@ impl Beam {
         }
     }
 
-    /// Mass, mass centre and inertia of beam and sloshing masses, these as points at their nodes: the
+    /// Mass, mass centre and inertia of beam and sloshing masses (points at their nodes): the
     /// rigid-body entries of the mass matrix.
     pub fn mass_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
         let own = self.density_properties(oscillators);
@@ -147,9 +154,8 @@ impl Beam {
         }
     }
 
-    /// [`Beam::mass_properties`] by density and sloshing masses alone.
-    ///
-    /// The consistent mass matrix is exact for rigid motion.
+    /// [`Beam::mass_properties`] without the correction. The consistent mass matrix is exact for rigid-body
+    /// motion.
     pub fn density_properties(&self, oscillators: &[Oscillator]) -> MassProperties {
         let own = self.element_m * self.element_m / 12.0;
         let parts = || {
@@ -177,8 +183,7 @@ impl Beam {
         rows.map(|row| row.map(|entry| entry * self.density[element] * l / 420.0))
     }
 
-    /// Stiffness matrix of an element, for `[w, theta]` at its two ends: what [`Beam::deflect`]
-    /// inverts, for checks only.
+    /// Stiffness matrix of an element, for `[w, theta]` at its two ends; for tests only.
     pub fn element_stiffness(&self, element: usize) -> [[f64; 4]; 4] {
         let l = self.element_m;
         let rows = [
@@ -190,8 +195,7 @@ impl Beam {
         rows.map(|row| row.map(|entry| entry * self.stiffness[element] / (l * l * l)))
     }
 
-    /// `product = M displacement`; M is the mass matrix of the beam alone, with its
-    /// [`Beam::moments`].
+    /// `product = M displacement`; M is the corrected mass matrix of the beam without sloshing masses.
     ///
     /// Both slices hold [`Beam::unknowns`] entries.
     pub fn mass_times(&self, displacement: &[f64], product: &mut [f64]) {
@@ -222,10 +226,9 @@ impl Beam {
         product[tail..].copy_from_slice(&[force, moment]);
     }
 
-    /// The displacement under a self-equilibrated load, with the nose held: `w_0 = theta_0 = 0`.
+    /// The displacement under a self-equilibrated load, with `w_0 = theta_0 = 0`.
     ///
-    /// Any other rigid-body position is as good. The last node's load is not read: equilibrium
-    /// determines it. Both slices hold [`Beam::unknowns`] entries.
+    /// The last node's load is not read: equilibrium determines it. Both slices hold [`Beam::unknowns`] entries.
     pub fn deflect(&self, load: &[f64], displacement: &mut [f64]) {
         let l = self.element_m;
         let [mut shear, mut bending, mut slope, mut w] = [0.0; 4];
@@ -233,13 +236,13 @@ impl Beam {
         let (out, _) = displacement.as_chunks_mut::<2>();
         for (([force, moment], out), stiffness) in loads.iter().zip(out).zip(&self.stiffness) {
             *out = [w, slope];
-            // (EI w'')' = shear, EI w'' = bending: the principle of virtual work gives the signs.
+            // (EI w'')' = shear, EI w'' = bending; signs by the principle of virtual work.
             shear += force;
             bending -= moment;
             let rise = shear * l;
-            let turn = l / stiffness;
-            w += l * (slope + turn * (bending / 2.0 + rise / 6.0));
-            slope += turn * (bending + rise / 2.0);
+            let flexibility = l / stiffness;
+            w += l * (slope + flexibility * (bending / 2.0 + rise / 6.0));
+            slope += flexibility * (bending + rise / 2.0);
             bending += rise;
         }
         let tail = 2 * self.elements();

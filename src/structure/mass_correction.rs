@@ -1,16 +1,24 @@
-//! The rigid motion of a beam, and moments of mass that its density does not have.
+//! A rank-two correction of the beam's mass matrix that sets mass centre and pitch inertia.
 //!
-//! Pitch, bending and slosh share one kinetic energy, so the pitch inertia of the equations of flight
-//! and the mass centre must be those of the mass matrix that the modes are orthogonal in. A beam's
-//! density gives it a mass m_b, a mass centre x_b and an inertia I_b of its own. With the fields
-//! 1 (heave) and b = x - x_b (rotation), `h = M_b 1 / m_b` and `r = M_b b / I_b` measure the mean
-//! translation and the mean rotation of any displacement, and
+//! Pitch, bending and slosh share one kinetic energy, so the mass matrix M of the modes must have the mass centre and
+//! the pitch inertia of the equations of motion. The beam's density gives M_b, with mass m_b, mass centre x_b and
+//! inertia I_b about it. With the fields 1 (heave) and b = x - x_b (rotation),
 //!
-//! `M = M_b + delta (h r^T + r h^T) + j r r^T`
+//! ```text
+//! h = M_b 1 / m_b,   r = M_b b / I_b                 h^T 1 = r^T b = 1,   h^T b = r^T 1 = 0
+//! M = M_b + delta (h r^T + r h^T) + j r r^T
+//! ```
 //!
-//! has the same mass, the first moment delta about x_b and the inertia I_b + j. It differs from M_b in
-//! the rigid motion of the beam alone: whatever is orthogonal to heave and rotation in M_b is so in M,
-//! so a beam without sloshing masses keeps its modes. A product with M takes O(n).
+//! h^T u and r^T u are the mean translation and rotation of a displacement u. Written as u = a 1 + c b + v with v
+//! M_b-orthogonal to both,
+//!
+//! ```text
+//! u^T M u = m_b a^2 + 2 delta a c + (I_b + j) c^2 + v^T M_b v
+//! ```
+//!
+//! so M has the mass m_b, the first moment delta about x_b and the inertia I_b + j, and differs from M_b in rigid-body
+//! motion only: a beam without sloshing masses keeps its modes. M is positive definite if and only if
+//! m_b (I_b + j) > delta^2. Only products with M are needed, at O(n); it is never inverted.
 
 /// Mean translation and rotation of the displacements of a beam.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -28,7 +36,7 @@ pub struct RigidMotion {
 }
 
 impl RigidMotion {
-    /// Mean translation at x_b (unit of w) and mean slope (that over m) of nodal deflections and slopes.
+    /// Mean translation h^T u and mean slope r^T u of nodal deflections and slopes.
     pub fn part(&self, w: &[f64], slope: &[f64]) -> [f64; 2] {
         [&self.translation, &self.rotation].map(|measure| {
             let (pairs, _) = measure.as_chunks::<2>();
@@ -41,14 +49,14 @@ impl RigidMotion {
     }
 }
 
-/// Moments of mass beyond those of the density.
+/// The correction of the mass matrix.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct MassCorrection {
-    /// delta, kg: of the mass per metre of width.
+    /// delta, kg: first moment of the mass per metre of width.
     pub first: f64,
     /// j, kg m^2/m.
     pub second: f64,
-    /// Where they act; empty if there are none.
+    /// h and r; empty if there is no correction.
     pub motion: RigidMotion,
 }
 
@@ -58,9 +66,9 @@ impl MassCorrection {
         let RigidMotion { translation, rotation, .. } = &self.motion;
         let mean =
             |measure: &[f64]| -> f64 { measure.iter().zip(displacement).map(|(m, u)| m * u).sum() };
-        let (moved, turned) = (mean(translation), mean(rotation));
-        let along_h = self.first * turned;
-        let along_r = self.first * moved + self.second * turned;
+        let (translated, rotated) = (mean(translation), mean(rotation));
+        let along_h = self.first * rotated;
+        let along_r = self.first * translated + self.second * rotated;
         for ((entry, h), r) in product.iter_mut().zip(translation).zip(rotation) {
             *entry += along_h * h + along_r * r;
         }

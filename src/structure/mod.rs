@@ -1,10 +1,10 @@
-//! The vehicle as a structure: a free-free beam with the liquid of its tanks, and their common modes.
+//! Structure: a free-free beam with the liquid of its tanks, and their coupled modes.
 //!
 //! | file | what it holds | where it comes from |
 //! |---|---|---|
-//! | `tanks` | liquid in the tanks | Fig. 4 |
-//! | `beam`, `shape` | elements, mass, statics; shapes between the nodes | eqs (1)-(2) |
-//! | `moments`, `rigid_body` | the one inertia of pitch, bending and slosh | |
+//! | `tanks` | sloshing and frozen liquid | Fig. 4 |
+//! | `beam`, `shape` | elements, mass, statics; shapes between nodes | eqs (1)-(2) |
+//! | `mass_correction`, `rigid_body` | common mass centre and inertia of pitch, bending and slosh | |
 //! | `modes` | K phi = omega^2 M phi | Table 1, Fig. 5 |
 
 mod beam;

@@ -1,9 +1,9 @@
 //! Eigenmodes of the beam with its sloshing masses: `K phi = omega^2 M phi`. Table 1 and Fig. 5 of
 //! the paper.
 //!
-//! One eigenproblem over beam *and* sloshing masses: the liquid is inside the modes, and no slosh
-//! force is added in the equations of flight. The two rigid-body modes belong to those equations;
-//! every mode here is M-orthogonal to them, hence carries neither momentum nor angular momentum.
+//! One eigenproblem for beam *and* sloshing masses: the liquid is part of the modes, and the equations of
+//! motion need no slosh force. They contain the two rigid-body modes; every mode here is M-orthogonal to
+//! these, so it has neither momentum nor angular momentum.
 
 mod align;
 mod jacobi;
@@ -23,8 +23,8 @@ pub const MODES: usize = FLEXIBLE + SLOSH;
 /// The lowest modes. Without sloshing masses the last [`SLOSH`] entries stay 0; for a rigid body,
 /// [`Modes::default`], all do.
 ///
-/// Scaling: a flexible mode lifts the nose by 1; in a slosh mode the larger of the two
-/// displacements against the beam is 1.
+/// Normalisation: the nose deflection of a flexible mode is 1; in a slosh mode the larger of the two
+/// displacements relative to the beam is 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Modes {
     /// Number of modes: 0, 3 or 5.
@@ -33,22 +33,20 @@ pub struct Modes {
     pub omega_rad_per_s: [f64; MODES],
     /// Modal masses `phi^T M phi`, kg/m.
     pub modal_mass: [f64; MODES],
-    /// Displacement of sloshing mass j against its node in mode i, `[j][i]`.
+    /// Displacement of sloshing mass j relative to its node in mode i, `[j][i]`.
     pub slosh_displacement: [[f64; MODES]; SLOSH],
-    /// Share of a mode's strain energy that is in the beam and not in the springs.
+    /// Share of a mode's strain energy that is in the beam, the rest being in the springs.
     pub beam_energy_share: [f64; MODES],
     /// Deflection and slope of the beam, one entry per mode.
     pub shape: Vec<Shape>,
-    /// The shapes out of the eigenmodes, `[eigenmode][shape]`, each with modal mass 1: the identity
-    /// but for [`Modes::aligned_to`]. Frequencies and energies are those of the eigenmodes.
+    /// Orthogonal matrix Q from eigenmodes to shapes, `[eigenmode][shape]`, each normalised to modal mass 1:
+    /// the identity except after [`Modes::aligned_to`]. Frequencies and energies are those of the eigenmodes.
     pub rotation: [[f64; MODES]; MODES],
 }
 
 impl Modes {
     /// The [`FLEXIBLE`] lowest modes of a beam, and one more for each of up to [`SLOSH`]
-    /// sloshing masses.
-    ///
-    /// The slosh modes are those with the largest share of kinetic energy in the sloshing masses.
+    /// sloshing masses. Slosh modes are those with the largest kinetic energy in the sloshing masses.
     ///
     /// # Panics
     /// With more than [`SLOSH`] oscillators.
@@ -63,7 +61,7 @@ impl Modes {
             masses.iter().zip(oscillators).map(|(w, o)| o.mass * w * w).sum()
         };
         let mut order: Vec<usize> = (0..count).collect();
-        // Stable sorts: of equal modes the slower stays first.
+        // The sort is stable, so equal modes keep their order.
         order.sort_by(|&a, &b| {
             let share = |i: usize| sloshing_share(&pairs[i].displacement);
             share(a).total_cmp(&share(b))
@@ -106,17 +104,17 @@ impl Modes {
         self.shape.push(Shape::scaled(nodal, 1.0 / unit));
     }
 
-    /// Deflection and slope (1/m) of each mode at a place.
-    pub fn at(&self, place: &Point) -> [[f64; MODES]; 2] {
+    /// Deflection and slope (1/m) of each mode at a point.
+    pub fn at(&self, point: &Point) -> [[f64; MODES]; 2] {
         let mut at = [[0.0; MODES]; 2];
         for (i, shape) in self.shape.iter().enumerate() {
-            (at[0][i], at[1][i]) = (shape.w_at(place), shape.slope_at(place));
+            (at[0][i], at[1][i]) = (shape.w_at(point), shape.slope_at(point));
         }
         at
     }
 
-    /// One over the modal mass, m/kg; 0 for a mode that does not exist. The divisor never is 0: a
-    /// compiler may divide before it asks.
+    /// One over the modal mass, m/kg; 0 for a mode that does not exist. The divisor is never 0: a compiler
+    /// may execute a division before the condition that guards it.
     pub fn per_modal_mass(&self, mode: usize) -> f64 {
         f64::from(u8::from(mode < self.count)) / self.modal_mass[mode].max(f64::MIN_POSITIVE)
     }
@@ -128,10 +126,10 @@ impl Modes {
 
     /// Modal damping matrix D of `eta'' + D eta' + K eta = N / mu`, 1/s.
     ///
-    /// Of eigenmodes, `D_ik = (1/mu_i) sum_j c_j rel_ji rel_jk + delta_ik 2 zeta omega_i e_i`: the
-    /// dampers of the sloshing masses couple the modes; the structure, with a damping ratio for each
-    /// flexible mode, damps each mode by the share `e_i` of its strain energy that is in the beam. A
-    /// slosh mode bends the beam as a slow load does, so it takes the ratio of the first flexible mode.
+    /// For eigenmodes `D_ik = (1/mu_i) sum_j c_j s_ji s_jk + delta_ik 2 zeta_i omega_i e_i`, with the displacement
+    /// s_ji of sloshing mass j relative to its node and the beam's share e_i of the strain energy. The dampers of
+    /// the sloshing masses couple the modes. Slosh modes have the structural damping ratio of the first flexible
+    /// mode, as they bend the beam quasi-statically.
     pub fn damping(
         &self,
         oscillators: &[Oscillator],
@@ -155,13 +153,13 @@ impl Modes {
         damping
     }
 
-    /// The matrix that is this diagonal in the eigenmodes.
+    /// mu^-1/2 Q^T diag Q mu^1/2: a matrix that is diagonal in the eigenmodes, in terms of the shapes.
     fn in_shapes(&self, diagonal: &[f64; MODES]) -> [[f64; MODES]; MODES] {
         let mut matrix = [[0.0; MODES]; MODES];
         for (i, row) in matrix.iter_mut().enumerate().take(self.count) {
             for (k, entry) in row.iter_mut().enumerate().take(self.count) {
                 let parts = self.rotation.iter().zip(diagonal);
-                let sum: f64 = parts.map(|(turn, value)| value * turn[i] * turn[k]).sum();
+                let sum: f64 = parts.map(|(q, value)| value * q[i] * q[k]).sum();
                 *entry = sum * (self.modal_mass[k] / self.modal_mass[i]).sqrt();
             }
         }

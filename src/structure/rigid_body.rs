@@ -1,5 +1,16 @@
-//! The one rigid body of pitch, bending and slosh: its mass centre and pitch inertia are those that are
-//! asked for, by the [`MassCorrection`] of its beam.
+//! Mass centre and pitch inertia of beam and sloshing masses, set by the [`MassCorrection`] of the beam.
+//!
+//! Beam and sloshing masses (points at their nodes) have the mass m, the mass centre x_own and the inertia I_own. To
+//! move the mass centre by D to x_c and make the inertia about x_c equal to I, equate the moments about x_b, with
+//! d = x_own - x_b:
+//!
+//! ```text
+//! first:   m d + delta       = m (d + D)        =>  delta = m D
+//! second:  I_own + m d^2 + j = I + m (d + D)^2  =>  j = I - I_own + m ((d + D)^2 - d^2)
+//! ```
+//!
+//! Positive definite if and only if I_b + j > delta^2 / m_b. Test:
+//! `verif_an_inertia_that_leaves_the_body_none_is_refused_with_its_numbers`.
 
 use super::beam::{Beam, MassProperties, Oscillator};
 use super::mass_correction::{MassCorrection, RigidMotion};
@@ -7,13 +18,13 @@ use crate::error::Error;
 use std::borrow::Cow;
 
 impl RigidMotion {
-    /// Of a beam's density.
+    /// h and r of a beam's density.
     pub fn of(beam: &Beam) -> Self {
         let own = beam.density_properties(&[]);
         let MassProperties { mass, centre_m, inertia } = own;
         let nodes = 0..=beam.elements();
         let heave: Vec<f64> = nodes.clone().flat_map(|_| [1.0, 0.0]).collect();
-        let turn: Vec<f64> = nodes.flat_map(|i| [beam.station(i) - centre_m, 1.0]).collect();
+        let rotation: Vec<f64> = nodes.flat_map(|i| [beam.station(i) - centre_m, 1.0]).collect();
         let momenta = |field: &[f64], total: f64| {
             let mut product = vec![0.0; field.len()];
             beam.density_times(field, &mut product);
@@ -25,13 +36,13 @@ impl RigidMotion {
             centre_m,
             inertia,
             translation: momenta(&heave, mass),
-            rotation: momenta(&turn, inertia),
+            rotation: momenta(&rotation, inertia),
         }
     }
 }
 
 impl Beam {
-    /// Its rigid motion: that of its moments, where these are known.
+    /// h and r, from the correction if there is one.
     pub fn rigid_motion(&self) -> Cow<'_, RigidMotion> {
         match self.correction.motion.rotation.is_empty() {
             true => Cow::Owned(RigidMotion::of(self)),
@@ -39,11 +50,10 @@ impl Beam {
         }
     }
 
-    /// Gives the beam, with these sloshing masses on it, another mass centre and pitch inertia; the
-    /// mass stays. Only the rigid motion of the beam changes.
+    /// Sets mass centre and pitch inertia of the beam with these sloshing masses; the mass is unchanged.
     ///
     /// # Errors
-    /// [`Error::Inertia`] if no body could have them: the kinetic energy would not be positive.
+    /// [`Error::Inertia`] if the mass matrix would not be positive definite.
     pub fn with_mass_properties(
         mut self,
         oscillators: &[Oscillator],
@@ -58,9 +68,9 @@ impl Beam {
         let second = inertia - own.inertia + moved;
         let body = motion.inertia + second;
         let least = inertia - body + first * first / motion.mass;
-        // Also false for what is not a number.
-        let possible = inertia > least && inertia.is_finite();
-        if !possible {
+        // False for NaN, too.
+        let positive_definite = inertia > least && inertia.is_finite();
+        if !positive_definite {
             return Err(Error::Inertia { inertia, least, own: own.inertia, shift_m: shift });
         }
         self.correction = MassCorrection { first, second, motion };

@@ -2,26 +2,24 @@
 
 use super::beam::Beam;
 
-/// A place on the beam, with the Hermite functions of its element there.
-///
-/// It carries everything that several shapes share, so each shape costs eight products.
+/// A point on the beam with the values of its element's Hermite functions, shared by all shapes.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
     /// Station, m from the nose.
     pub x: f64,
-    /// Share of an integral over the beam, m; 0 for a single place.
+    /// Quadrature weight, m; 0 for a single point.
     pub weight: f64,
     element: usize,
     w: [f64; 4],
     slope: [f64; 4],
 }
 
-/// Deflection and slope at every node: cubic between them.
+/// Deflection and slope at the nodes, cubic between them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shape {
     /// Deflection w of the nodes, nose first.
     pub w: Vec<f64>,
-    /// Slope dw/dx of the nodes, 1/m where w has no unit.
+    /// Slope dw/dx of the nodes; 1/m if w is dimensionless.
     pub slope: Vec<f64>,
 }
 
@@ -33,12 +31,12 @@ impl Shape {
         Self { w: every_second(0), slope: every_second(1) }
     }
 
-    /// Deflection at a place.
+    /// Deflection at a point.
     pub fn w_at(&self, point: &Point) -> f64 {
         self.combine(point.element, &point.w)
     }
 
-    /// Slope at a place.
+    /// Slope at a point.
     pub fn slope_at(&self, point: &Point) -> f64 {
         self.combine(point.element, &point.slope)
     }
@@ -52,7 +50,7 @@ impl Shape {
 }
 
 impl Beam {
-    /// The place at station `x`, m; beyond an end the last element's cubic goes on.
+    /// The point at station `x`, m; beyond an end the cubic of the last element is extrapolated.
     pub fn point(&self, x: f64) -> Point {
         self.point_in(((x / self.element_m) as usize).min(self.elements() - 1), x, 0.0)
     }
@@ -72,8 +70,8 @@ impl Beam {
 
     /// Gauss points of `[from, to]`, four per element or piece of one.
     ///
-    /// A weighted sum over them is exact for polynomials of degree 7 in each element: two shapes
-    /// and one more power of x.
+    /// The quadrature is exact for polynomials of degree 7 in each element, such as the product of two shapes
+    /// and x.
     pub fn gauss_points(&self, from: f64, to: f64) -> impl Iterator<Item = Point> {
         let last = self.elements() - 1;
         let element_of = move |x: f64| ((x / self.element_m) as usize).min(last);
@@ -82,7 +80,7 @@ impl Beam {
             let start = if e == 0 { from } else { from.max(self.station(e)) };
             let end = if e == last { to } else { to.min(self.station(e + 1)) };
             let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
-            rule.map(|(place, weight)| self.point_in(e, middle + half * place, half * weight))
+            rule.map(|(node, weight)| self.point_in(e, middle + half * node, half * weight))
         })
     }
 
@@ -92,11 +90,11 @@ impl Beam {
     }
 }
 
-/// Gauss-Legendre rule with four points on `[-1, 1]`: places and weights.
+/// Gauss-Legendre rule with four points on `[-1, 1]`: nodes and weights.
 fn gauss_rule() -> [(f64, f64); 4] {
     let spread = 2.0 / 7.0 * 1.2_f64.sqrt();
     let (inner, outer) = ((3.0 / 7.0 - spread).sqrt(), (3.0 / 7.0 + spread).sqrt());
-    let tilt = 30.0_f64.sqrt();
-    let (heavy, light) = ((18.0 + tilt) / 36.0, (18.0 - tilt) / 36.0);
+    let root = 30.0_f64.sqrt();
+    let (heavy, light) = ((18.0 + root) / 36.0, (18.0 - root) / 36.0);
     [(-outer, light), (-inner, heavy), (inner, heavy), (outer, light)]
 }

@@ -1,15 +1,18 @@
-//! Liquid in the two tanks: what sloshes, how fast, and what lies still. Fig. 4 of the paper.
+//! Liquid in the two tanks: sloshing mass, its frequency, and the frozen rest. Fig. 4 of the paper.
 //!
 //! E. W. Graham and A. M. Rodriguez, "The characteristics of fuel motion which affect airplane
 //! dynamics", J. Applied Mechanics 19(3), 1952, 381-388: liquid of depth `h` in a rectangular tank
-//! of length `b` along the motion answers like a row of spring-mass systems and a rest that moves
-//! with the walls. The first of the row is kept.
+//! of length `b` along the motion is equivalent to a series of spring-mass systems and a frozen mass that moves
+//! with the walls. With r = h/b the first system, which is kept, has
 //!
-//! Two things are left out on purpose. The *second mode* carries 1/27 of the first one's mass in a
-//! deep tank (3.7 %, [`mass_ratio`] of a bay a third as long), less than the data are known to; its
-//! liquid counts as frozen. The *attachment height* `h (1/2 - tanh(pi r/2) / (pi r/2))` above the
-//! middle of the liquid is at most two thirds of a metre here, while the station of a tank is itself
-//! identified from three frequencies: the mass hangs on the tank's node, as in fig. 4.
+//! ```text
+//! m_1 / m = 8 tanh(pi r) / (pi^3 r),   omega_1^2 = g (pi/b) tanh(pi r),   k_1 = m_1 omega_1^2
+//! ```
+//!
+//! Neglected are the *second mode*, whose mass in a deep tank is 1/27 (3.7 %) of the first, less than the accuracy
+//! of the data (its liquid counts as frozen), and the *attachment height* `h (1/2 - tanh(pi r/2) / (pi r/2))` above
+//! the centre of the liquid, here at most two thirds of a metre: the mass is attached to the tank's node, as in
+//! fig. 4.
 
 use crate::data::{TankData, VehicleData};
 use crate::error::Error;
@@ -19,7 +22,7 @@ use std::f64::consts::PI;
 /// Sloshing mass over liquid mass of a tank with `depth_ratio = h/b`:
 /// `8 tanh(pi r) / (pi^3 r)`, Graham and Rodriguez 1952, first mode.
 ///
-/// Falls from `8/pi^2` (shallow) to nothing (deep, where only the surface moves).
+/// Falls from `8/pi^2` (shallow) to 0 (deep, where only the surface moves).
 pub fn mass_ratio(depth_ratio: f64) -> f64 {
     let x = PI * depth_ratio;
     8.0 * tanh(x) / (PI * PI * x)
@@ -38,7 +41,7 @@ pub fn full_mass_kg_per_m(data: &VehicleData) -> f64 {
         + mass.aft_beam_kg_per_m2.value * (data.geometry.length_m.value - joint)
 }
 
-/// Part of the full load that is on board: the residual stays at `fuel_fraction` 0.
+/// Fraction of the full load on board, including the residual propellant.
 fn filling(data: &VehicleData, fuel_fraction: f64) -> f64 {
     let residual = data.mass.residual_fraction.value;
     residual + (1.0 - residual) * fuel_fraction
@@ -49,33 +52,32 @@ pub fn propellant_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
     data.mass.propellant_fraction.value * full_mass_kg_per_m(data) * filling(data, fuel_fraction)
 }
 
-/// Fuel per metre of width, kg/m: what of the propellant can be drained.
+/// Usable fuel per metre of width, kg/m.
 pub fn fuel_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
     let drainable = 1.0 - data.mass.residual_fraction.value;
     let load = data.mass.propellant_fraction.value * full_mass_kg_per_m(data);
     load * drainable * fuel_fraction
 }
 
-/// Slowest frequency that can be asked for, rad/s. A slower spring is so soft that what the kept
-/// modes leave of the static loads moves the liquid by metres.
-pub const SLOWEST_RAD_PER_S: f64 = 0.1;
+/// Lowest sloshing frequency that can be set, rad/s. With softer springs the static deflection of the truncated
+/// modes would be metres.
+pub const MIN_FREQUENCY_RAD_PER_S: f64 = 0.1;
 
-/// Where the sloshing frequency and its damping come from.
+/// Sloshing frequency and damping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SloshSettings {
-    /// Damping ratio of the sloshing mass on a tank that stands still.
+    /// Damping ratio of the sloshing mass in a fixed tank.
     pub damping_ratio: f64,
     /// Angular frequency of both tanks, rad/s; 0 takes [`frequency`] of each tank.
     pub frequency_rad_per_s: f64,
-    /// Gravity less the centrifugal part, across the flight path, m/s^2; used where the frequency
-    /// comes from the tank.
+    /// Gravity less centrifugal acceleration, normal to the flight path, m/s^2; used with [`frequency`].
     pub gravity_m_per_s2: f64,
 }
 
 /// A tank at one filling. Masses and coefficients per metre of vehicle width.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SloshingTank {
-    /// Middle of the tank, m from the nose: where the sloshing mass is attached.
+    /// Station of the middle of the tank, m from the nose; the sloshing mass is attached there.
     pub centre_m: f64,
     /// Extent of the frozen liquid along the body, m.
     pub length_m: f64,
@@ -83,11 +85,11 @@ pub struct SloshingTank {
     pub depth_m: f64,
     /// All the liquid, kg/m.
     pub liquid_mass: f64,
-    /// Liquid that moves with the walls, kg/m.
+    /// Frozen liquid, which moves with the walls, kg/m.
     pub frozen_mass: f64,
-    /// Liquid that sloshes, kg/m.
+    /// Sloshing liquid, kg/m.
     pub sloshing_mass: f64,
-    /// Angular frequency on a tank that stands still, rad/s.
+    /// Angular frequency in a fixed tank, rad/s.
     pub omega_rad_per_s: f64,
     /// Spring between tank and sloshing mass, N/m per metre: `m omega^2`.
     pub stiffness: f64,
@@ -98,18 +100,19 @@ pub struct SloshingTank {
 impl SloshingTank {
     /// Fore and aft tank, in this order.
     ///
-    /// Fails where the tank's own frequency is asked for and gravity does not hold the liquid:
-    /// from orbital speed upwards.
+    /// # Errors
+    /// [`Error::Value`] if the frequency is positive but below [`MIN_FREQUENCY_RAD_PER_S`], or if it is to follow from
+    /// the geometry and the effective gravity is not positive (orbital speed and above).
     pub fn pair(
         data: &VehicleData,
         fuel_fraction: f64,
         settings: &SloshSettings,
     ) -> Result<[Self; 2], Error> {
-        let asked = settings.frequency_rad_per_s;
-        if asked > 0.0 && asked < SLOWEST_RAD_PER_S {
+        let requested = settings.frequency_rad_per_s;
+        if requested > 0.0 && requested < MIN_FREQUENCY_RAD_PER_S {
             return Err(Error::SloshFrequency {
-                asked_rad_per_s: asked,
-                least_rad_per_s: SLOWEST_RAD_PER_S,
+                asked_rad_per_s: requested,
+                least_rad_per_s: MIN_FREQUENCY_RAD_PER_S,
             });
         }
         let gravity = settings.gravity_m_per_s2;

@@ -1,4 +1,14 @@
-//! The same motions in another basis.
+//! The kept modes of one fuel level in the basis nearest to the modes of another level.
+//!
+//! With the own modes Phi (mu_i = phi_i^T M phi_i) and the reference modes V, the rotation Q minimises
+//!
+//! ```text
+//! || V N^-1/2 - Phi mu^-1/2 Q ||_M   over Q^T Q = 1,   N_k = v_k^T M v_k:   Q is the orthogonal polar factor of
+//! O_ik = phi_i^T M v_k / sqrt(mu_i N_k)
+//! ```
+//!
+//! (orthogonal Procrustes problem: Golub, Van Loan, Matrix Computations, 4th ed., section 6.4.1). Newton's iteration
+//! X <- (X + X^-T)/2 from X = O converges to it quadratically (Higham, Functions of Matrices, 2008, section 8.3).
 
 use super::{FLEXIBLE, MODES, Modes, SLOSH, lanczos};
 use crate::error::Error;
@@ -8,10 +18,9 @@ use nalgebra::SMatrix;
 
 type Matrix = SMatrix<f64, MODES, MODES>;
 
-/// Newton's iteration for the nearest rotation converges in about eight steps; the rest guards
-/// against cycling at rounding level.
+/// Limit of Newton's iteration; about eight steps are usual.
 const MAX_STEPS: usize = 40;
-/// Change of an entry that counts as none.
+/// Largest change of an entry at convergence.
 const CONVERGED: f64 = 1e-15;
 
 impl Modes {
@@ -31,7 +40,7 @@ impl Modes {
             .collect()
     }
 
-    /// `phi_i^T M v_k / mu_i` of the shapes phi and of any displacements v.
+    /// `phi_i^T M v_k / mu_i` for the shapes phi and any displacements v.
     pub fn products(
         &self,
         beam: &Beam,
@@ -49,14 +58,13 @@ impl Modes {
         products
     }
 
-    /// These motions in the basis nearest to the modes of a reference, the same vehicle under another
-    /// load, in the product of the mass matrix: the orthogonal Procrustes problem (Golub and Van Loan,
-    /// Matrix Computations, 4th ed., section 6.4.1). As liquid moves the beam in proportion to its
-    /// mass, so the reference's slosh modes do. The scaling is that of [`Modes`]; a slosh mode keeps
-    /// the tank whose displacement it counts.
+    /// The modes in the basis nearest to those of a reference, the same vehicle at another fuel level.
+    ///
+    /// The beam's share of the reference's slosh modes is scaled by the mass of liquid. Shapes are normalised as in
+    /// [`Modes`]; a slosh mode is normalised by the tank of the reference.
     ///
     /// # Errors
-    /// [`Error::ModesNotFollowed`] if the motions have a part that no reference has.
+    /// [`Error::ModesNotFollowed`] if O is singular.
     pub fn aligned_to(
         &self,
         beam: &Beam,
@@ -66,23 +74,23 @@ impl Modes {
         let count = self.count;
         let (reference, others) = reference;
         let [own, other] = [oscillators, others].map(|o| o.iter().map(|o| o.mass).sum::<f64>());
-        // Without liquid both are zero.
+        // Both masses are zero without liquid.
         let ratio = own / other.max(f64::MIN_POSITIVE);
-        let mut wanted = reference.clone();
-        for shape in wanted.shape.iter_mut().skip(FLEXIBLE) {
+        let mut target = reference.clone();
+        for shape in target.shape.iter_mut().skip(FLEXIBLE) {
             shape.w.iter_mut().chain(&mut shape.slope).for_each(|part| *part *= ratio);
         }
-        let wanted = wanted.displacements(oscillators);
-        let products = self.products(beam, oscillators, &wanted);
+        let target = target.displacements(oscillators);
+        let products = self.products(beam, oscillators, &target);
         let structure = lanczos::Structure { beam, oscillators };
         let mut overlap = Matrix::identity();
-        for (k, wanted) in wanted.iter().enumerate() {
-            let norm = lanczos::dot(wanted, &structure.mass_times(wanted)).sqrt();
+        for (k, target) in target.iter().enumerate() {
+            let norm = lanczos::dot(target, &structure.mass_times(target)).sqrt();
             for i in 0..count {
                 overlap[(i, k)] = products[i][k] * self.modal_mass[i].sqrt() / norm;
             }
         }
-        let mut rotation = nearest_rotation(overlap).ok_or(Error::ModesNotFollowed)?;
+        let mut rotation = polar_factor(overlap).ok_or(Error::ModesNotFollowed)?;
 
         let mut aligned = Self { shape: Vec::with_capacity(count), ..self.clone() };
         let per_root_mass: [f64; MODES] =
@@ -94,7 +102,7 @@ impl Modes {
             let unit = if k < FLEXIBLE {
                 sum(&|i| self.shape[i].w[0])
             } else {
-                sum(&|i| self.slosh_displacement[counted_tank(reference, k)][i])
+                sum(&|i| self.slosh_displacement[normalising_tank(reference, k)][i])
             };
             let scaled = |value: &dyn Fn(usize) -> f64| sum(value) / unit;
             let nodes = 0..self.shape[k].w.len();
@@ -115,15 +123,14 @@ impl Modes {
     }
 }
 
-/// The tank whose displacement is 1 in a slosh mode.
-fn counted_tank(modes: &Modes, mode: usize) -> usize {
+/// The tank whose displacement normalises a slosh mode.
+fn normalising_tank(modes: &Modes, mode: usize) -> usize {
     let [fore, aft] = modes.slosh_displacement.map(|relative| relative[mode].abs());
     usize::from(aft > fore)
 }
 
-/// The orthogonal polar factor, by Newton's iteration (Higham, Functions of Matrices, section 8.3);
-/// none of a singular matrix.
-fn nearest_rotation(mut matrix: Matrix) -> Option<Matrix> {
+/// The orthogonal polar factor; none of a singular matrix.
+fn polar_factor(mut matrix: Matrix) -> Option<Matrix> {
     for _ in 0..MAX_STEPS {
         let next = (matrix + matrix.try_inverse()?.transpose()) * 0.5;
         let change = (next - matrix).amax();

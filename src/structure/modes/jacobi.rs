@@ -1,19 +1,27 @@
-//! Small dense symmetric eigenproblems by Jacobi rotations.
+//! Dense symmetric positive definite eigenproblems by the cyclic Jacobi method.
 //!
-//! Jacobi finds the small eigenvalues of a graded positive definite matrix to as many digits as
-//! the large ones (Demmel and Veselic, SIAM J. Matrix Anal. Appl. 13(4), 1992, 1204-1245); QR
-//! iterations do not. A slow slosh mode beside a fast flexible one makes such matrices. Only
-//! `+ - * / sqrt` occur: the same bits on every platform.
+//! Each rotation in the plane (p, q) annihilates a_pq:
+//!
+//! ```text
+//! zeta = (a_qq - a_pp) / (2 a_pq),   t = sign(zeta) / (|zeta| + sqrt(1 + zeta^2)),   c = 1 / sqrt(1 + t^2),   s = t c
+//! a_pp <- a_pp - t a_pq,   a_qq <- a_qq + t a_pq
+//! ```
+//!
+//! (Golub, Van Loan, Matrix Computations, 4th ed., section 8.5). Sweeps end when |a_pq| <= eps sqrt(a_pp a_qq) for all
+//! p < q: then small eigenvalues of a graded matrix, such as those of fast flexible modes beside slow slosh modes,
+//! have the same relative accuracy as large ones, unlike with QR (Demmel, Veselic, Jacobi's method is more accurate
+//! than QR, SIAM J. Matrix Anal. Appl. 13(4), 1992, 1204-1245). Only `+ - * / sqrt` occur: the same bits on every
+//! platform.
 
-/// Sweeps after which the rotations stop in any case; seven or eight are usual.
-const SWEEPS: usize = 40;
+/// Limit of sweeps; seven or eight are usual.
+const MAX_SWEEPS: usize = 40;
 
 /// Eigenvalues, largest first, each with its unit eigenvector.
 pub(super) fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     let n = a.len();
     let mut vectors: Vec<Vec<f64>> =
         (0..n).map(|i| (0..n).map(|k| if i == k { 1.0 } else { 0.0 }).collect()).collect();
-    for _ in 0..SWEEPS {
+    for _ in 0..MAX_SWEEPS {
         let mut rotated = false;
         for p in 0..n {
             for q in p + 1..n {
@@ -22,20 +30,20 @@ pub(super) fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
                     continue;
                 }
                 rotated = true;
-                let half_cotangent = (aqq - app) / (2.0 * apq);
-                let root = (1.0 + half_cotangent * half_cotangent).sqrt();
-                let tangent = 1.0 / (half_cotangent.abs() + root).copysign(half_cotangent);
+                let zeta = (aqq - app) / (2.0 * apq);
+                let root = (1.0 + zeta * zeta).sqrt();
+                let tangent = 1.0 / (zeta.abs() + root).copysign(zeta);
                 let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
                 let sine = tangent * cosine;
                 for row in &mut a {
-                    (row[p], row[q]) = turn(row[p], row[q], cosine, sine);
+                    (row[p], row[q]) = rotate(row[p], row[q], cosine, sine);
                 }
-                turn_rows(&mut a, p, q, cosine, sine);
+                rotate_rows(&mut a, p, q, cosine, sine);
                 a[p][p] = app - tangent * apq;
                 a[q][q] = aqq + tangent * apq;
                 a[p][q] = 0.0;
                 a[q][p] = 0.0;
-                turn_rows(&mut vectors, p, q, cosine, sine);
+                rotate_rows(&mut vectors, p, q, cosine, sine);
             }
         }
         if !rotated {
@@ -47,14 +55,14 @@ pub(super) fn eigen(mut a: Vec<Vec<f64>>) -> Vec<(f64, Vec<f64>)> {
     pairs
 }
 
-fn turn(x: f64, y: f64, cosine: f64, sine: f64) -> (f64, f64) {
+fn rotate(x: f64, y: f64, cosine: f64, sine: f64) -> (f64, f64) {
     (cosine * x - sine * y, sine * x + cosine * y)
 }
 
-/// Turns row p into row q; p < q.
-fn turn_rows(rows: &mut [Vec<f64>], p: usize, q: usize, cosine: f64, sine: f64) {
+/// Rotates rows p and q, p < q.
+fn rotate_rows(rows: &mut [Vec<f64>], p: usize, q: usize, cosine: f64, sine: f64) {
     let (head, tail) = rows.split_at_mut(q);
     for (x, y) in head[p].iter_mut().zip(&mut tail[0]) {
-        (*x, *y) = turn(*x, *y, cosine, sine);
+        (*x, *y) = rotate(*x, *y, cosine, sine);
     }
 }

@@ -1,41 +1,66 @@
-//! The slowest modes by a band Lanczos iteration on the flexibility.
+//! The lowest modes of `K phi = omega^2 M phi` by a band Lanczos iteration on the inverse problem
 //!
-//! With K^+ the exact statics of [`Beam::deflect`], the operator `A = K^+ M` on motions without
-//! momentum is symmetric in the product `x^T M y`, and its largest eigenvalues are the flexibilities
-//! `1/omega^2` of the slowest modes. No matrix is factored and nothing is shifted. The two
-//! rigid-body modes are the first two vectors of the basis: orthogonalisation against the basis
-//! is the projection on the flexible motions.
+//! ```text
+//! A phi = phi / omega^2,   A = K^+ M
+//! ```
 //!
-//! **No mode is missed.** The iteration starts with the answers to a force on the nose and to one
-//! on each sloshing mass. A mode phi enters them with `phi(nose)` and `phi(mass j)`, over omega^2.
-//! Were all of these 0, the springs would be slack (`k_j (phi_j - w_j) = omega^2 m_j phi_j = 0`),
-//! phi a mode of the bare beam, and a bare free-free beam moves at its ends in every mode. By the
-//! same argument a multiple eigenvalue has at most as many modes as there are starting vectors,
-//! and they enter independently. So the Krylov space contains every mode, equal frequencies
-//! included, and the residuals, together with the guard mode, tell when it is large enough.
+//! on displacements M-orthogonal to heave and pitch, where K^+ is the static solution of [`Beam::deflect`]. A is
+//! symmetric in the inner product x^T M y. K is singular on rigid-body motion only, so no shift is needed, and no
+//! matrix is factored.
+//!
+//! # Iteration
+//!
+//! Starting vectors: the static responses to a unit force on the nose and on each sloshing mass, 1 or 3, which is
+//! the bandwidth p. Step j computes A v_j, M-orthogonalises it against heave, pitch and all v_i (full
+//! reorthogonalisation, Gram-Schmidt twice) and appends the normalised rest as v_(j+p). A vector whose rest is
+//! below 1e-14 is dropped (deflation), which lowers p. The components of A v_j are column j of the projected
+//! matrix T_n = V_n^T M A V_n, a band matrix of half-width p.
+//!
+//! # Stopping
+//!
+//! A Ritz pair T_n s = theta s, x = V_n s has the residual `A x - theta x = R s`, R the part of A V_n outside V_n.
+//! With its M-norm rho and the distance `gap` of theta to the other eigenvalues of A,
+//!
+//! ```text
+//! |theta - 1/omega^2| <= min(rho, rho^2/gap),   sin(angle between x and phi) <= rho/gap
+//! ```
+//!
+//! The iteration ends when rho <= 1e-13 theta for all wanted modes and rho <= 1e-3 theta for the next one, the
+//! guard, or when all p starting vectors are exhausted. One Rayleigh-Ritz step in the Ritz vectors follows.
+//!
+//! # No mode is missed
+//!
+//! A mode phi contributes phi(nose) / omega^2 and phi(mass j) / omega^2 to the starting vectors. If all of these were
+//! 0, the springs would be slack (`k_j (phi_j - w_j) = omega^2 m_j phi_j = 0`) and phi a mode of the bare beam with a
+//! node at its free end, which does not exist. For the same reason a multiple eigenvalue has at most p modes, and
+//! they are independent in the starting vectors. So the Krylov space contains every mode.
+//!
+//! Sources: A. Ruhe, Implementation aspects of band Lanczos algorithms, Math. Comp. 33(146), 1979, 680-687; B. N.
+//! Parlett, The Symmetric Eigenvalue Problem, 1980, sections 6.9 (Gram-Schmidt twice) and 11.7 (residual bounds).
+//! Tests: `verif_frequencies_are_right_and_none_is_missed` (Sylvester's law of inertia, 32 digits),
+//! `verif_shapes_are_those_of_inverse_iteration_in_double_double`.
 
 use super::jacobi;
 use crate::error::Error;
 use crate::structure::beam::{Beam, Oscillator};
 use multiversion::multiversion;
 
-/// Heave and pitch.
-const RIGID: usize = 2;
-/// Vectors for each mode before the first look at the small eigenproblem: fewer seldom suffice.
-const FIRST_LOOK: usize = 4;
-/// Steps between later looks.
-const STRIDE: usize = 3;
-/// Vectors at which the search is given up; 24 are usual.
-const LARGEST_BASIS: usize = 240;
-/// Residual over eigenvalue at which a mode counts as found. The error of omega goes with its
-/// square, that of the shape with itself over the relative gap: both below rounding.
+/// Number of rigid-body modes: heave and pitch.
+const RIGID_BODY_MODES: usize = 2;
+/// Vectors per wanted mode before the Ritz values are computed first.
+const FIRST_CHECK: usize = 4;
+/// Steps between later computations of the Ritz values.
+const CHECK_INTERVAL: usize = 3;
+/// Limit of the basis; 24 vectors are usual.
+const MAX_BASIS: usize = 240;
+/// rho/theta at which a mode has converged.
 const RESIDUAL: f64 = 1e-13;
-/// The first mode beyond those asked for need only be told apart.
+/// rho/theta at which the guard mode has converged: it only needs to be separated.
 const GUARD_RESIDUAL: f64 = 1e-3;
-/// A vector of which orthogonalisation leaves less than this, relative, adds nothing.
-const NOTHING_LEFT: f64 = 1e-14;
+/// Relative norm after orthogonalisation below which a vector is dropped.
+const DEFLATION: f64 = 1e-14;
 
-/// Beam with sloshing masses: vectors hold the beam's displacement, then that of each mass.
+/// Beam with sloshing masses. Vectors hold the beam's displacement, then that of each mass.
 pub(super) struct Structure<'a> {
     pub beam: &'a Beam,
     pub oscillators: &'a [Oscillator],
@@ -63,7 +88,7 @@ impl Structure<'_> {
         product
     }
 
-    /// Statics: a force on a sloshing mass reaches the beam through its spring.
+    /// K^+ load. A force on a sloshing mass acts on the beam through the spring.
     fn deflect(&self, mut load: Vec<f64>) -> Vec<f64> {
         let beam = self.beam.unknowns();
         for (j, oscillator) in self.oscillators.iter().enumerate() {
@@ -78,8 +103,8 @@ impl Structure<'_> {
         displacement
     }
 
-    /// Unit heave, and unit pitch about the middle.
-    fn rigid_modes(&self) -> [Vec<f64>; RIGID] {
+    /// Unit heave, and unit rotation about mid-length.
+    fn rigid_modes(&self) -> [Vec<f64>; RIGID_BODY_MODES] {
         let middle = 0.5 * self.beam.length_m();
         let arm = |node: usize| self.beam.station(node) - middle;
         let nodes = 0..=self.beam.elements();
@@ -95,7 +120,7 @@ impl Structure<'_> {
 struct Basis<'a> {
     structure: &'a Structure<'a>,
     vectors: Vec<Vec<f64>>,
-    /// M times each vector: a vector's momenta, or the load of its inertia forces.
+    /// M times each vector.
     products: Vec<Vec<f64>>,
 }
 
@@ -108,10 +133,10 @@ impl<'a> Basis<'a> {
         basis
     }
 
-    /// Adds what is new in a vector; returns its components along the basis, the new one last.
+    /// Orthonormalises a vector and appends it; returns its components along the basis, the new one last.
     fn push(&mut self, mut vector: Vec<f64>) -> Vec<f64> {
         let mut components = vec![0.0; self.vectors.len()];
-        // Twice is enough (Parlett, The Symmetric Eigenvalue Problem, section 6.9).
+        // Parlett, section 6.9: twice is enough.
         for _ in 0..2 {
             let along: Vec<f64> = self.products.iter().map(|p| dot(p, &vector)).collect();
             for ((total, along), basis) in components.iter_mut().zip(along).zip(&self.vectors) {
@@ -122,7 +147,7 @@ impl<'a> Basis<'a> {
         let mut product = self.structure.mass_times(&vector);
         let norm = dot(&vector, &product).sqrt();
         let before = dot(&components, &components).sqrt() + norm;
-        if norm > NOTHING_LEFT * before {
+        if norm > DEFLATION * before {
             scale(&mut vector, 1.0 / norm);
             scale(&mut product, 1.0 / norm);
             self.vectors.push(vector);
@@ -132,9 +157,9 @@ impl<'a> Basis<'a> {
         components
     }
 
-    /// Statics under a load, after the rigid-body motion that it causes has been taken out of it.
-    fn answer(&self, mut load: Vec<f64>) -> Vec<f64> {
-        for (mode, product) in self.vectors.iter().zip(&self.products).take(RIGID) {
+    /// K^+ load, with the load made self-equilibrated by the inertia forces of its rigid-body acceleration.
+    fn static_response(&self, mut load: Vec<f64>) -> Vec<f64> {
+        for (mode, product) in self.vectors.iter().zip(&self.products).take(RIGID_BODY_MODES) {
             let momentum = dot(mode, &load);
             add_scaled(&mut load, -momentum, product);
         }
@@ -142,66 +167,68 @@ impl<'a> Basis<'a> {
     }
 
     /// A times a vector of the basis.
-    fn flex(&self, index: usize) -> Vec<f64> {
+    fn apply(&self, index: usize) -> Vec<f64> {
         self.structure.deflect(self.products[index].clone())
     }
 
-    /// Linear combination of the vectors behind the rigid-body modes.
+    /// Linear combination of the vectors after the rigid-body modes.
     fn combine(&self, weights: &[f64]) -> Vec<f64> {
         let mut sum = vec![0.0; self.structure.unknowns()];
-        for (weight, vector) in weights.iter().zip(&self.vectors[RIGID..]) {
+        for (weight, vector) in weights.iter().zip(&self.vectors[RIGID_BODY_MODES..]) {
             add_scaled(&mut sum, *weight, vector);
         }
         sum
     }
 }
 
-/// The `count` slowest modes, slowest first.
+/// The `count` lowest modes, lowest first.
 pub(super) fn lowest_modes(structure: &Structure, count: usize) -> Result<Vec<EigenPair>, Error> {
     let mut basis = Basis::new(structure);
     let masses = structure.beam.unknowns()..structure.unknowns();
-    for place in std::iter::once(0).chain(masses) {
+    for entry in std::iter::once(0).chain(masses) {
         let mut load = vec![0.0; structure.unknowns()];
-        load[place] = 1.0;
-        let answer = basis.answer(load);
-        basis.push(answer);
+        load[entry] = 1.0;
+        let response = basis.static_response(load);
+        basis.push(response);
     }
 
     let mut columns: Vec<Vec<f64>> = Vec::new();
     loop {
-        let exhausted = basis.vectors.len() <= RIGID + columns.len();
+        let exhausted = basis.vectors.len() <= RIGID_BODY_MODES + columns.len();
         if exhausted
-            || (columns.len() >= FIRST_LOOK * count && columns.len().is_multiple_of(STRIDE))
+            || (columns.len() >= FIRST_CHECK * count
+                && columns.len().is_multiple_of(CHECK_INTERVAL))
         {
-            let ritz = jacobi::eigen(leading_block(&columns));
-            let found = |i: usize, tolerance: f64| {
+            let ritz = jacobi::eigen(projected_matrix(&columns));
+            let converged = |i: usize, tolerance: f64| {
                 let (flexibility, weights) = &ritz[i];
-                remainder(&columns, weights) <= tolerance * flexibility
+                residual_norm(&columns, weights) <= tolerance * flexibility
             };
-            if exhausted && ritz.len() < count || columns.len() > LARGEST_BASIS {
-                let found = (0..count.min(ritz.len())).filter(|&i| found(i, RESIDUAL)).count();
+            if exhausted && ritz.len() < count || columns.len() > MAX_BASIS {
+                let found = (0..count.min(ritz.len())).filter(|&i| converged(i, RESIDUAL)).count();
                 return Err(Error::Modes { count, found });
             }
-            if exhausted || (0..count).all(|i| found(i, RESIDUAL)) && found(count, GUARD_RESIDUAL) {
-                let guess = ritz[..count].iter().map(|(_, weights)| basis.combine(weights));
-                return Ok(polish(structure, guess));
+            if exhausted
+                || (0..count).all(|i| converged(i, RESIDUAL)) && converged(count, GUARD_RESIDUAL)
+            {
+                let ritz_vectors = ritz[..count].iter().map(|(_, weights)| basis.combine(weights));
+                return Ok(rayleigh_ritz(structure, ritz_vectors));
             }
         }
-        let image = basis.flex(RIGID + columns.len());
-        columns.push(basis.push(image).split_off(RIGID));
+        let image = basis.apply(RIGID_BODY_MODES + columns.len());
+        columns.push(basis.push(image).split_off(RIGID_BODY_MODES));
     }
 }
 
-/// A in the vectors that it has been applied to. Column j of `columns` holds the components of A
-/// times vector j; the later of two symmetric entries is always there.
-fn leading_block(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
+/// T_n, from the components of A v_j in column j: of two symmetric entries the one in the later column is
+/// always known.
+fn projected_matrix(columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let n = columns.len();
     (0..n).map(|i| (0..n).map(|j| columns[i.max(j)][i.min(j)]).collect()).collect()
 }
 
-/// Norm of the part of A x outside the vectors that A has been applied to: what `A x - x/omega^2`
-/// amounts to for a Ritz vector x with these `weights`.
-fn remainder(columns: &[Vec<f64>], weights: &[f64]) -> f64 {
+/// rho: the M-norm of R s for the Ritz vector with weights s.
+fn residual_norm(columns: &[Vec<f64>], weights: &[f64]) -> f64 {
     let n = columns.len();
     let outside = n..columns[n - 1].len();
     let square: f64 = outside
@@ -216,21 +243,21 @@ fn remainder(columns: &[Vec<f64>], weights: &[f64]) -> f64 {
     square.sqrt()
 }
 
-/// One Rayleigh-Ritz step in the modes themselves. There A is graded and almost diagonal, so that
-/// a fast mode beside a slow one comes out to its own last digits, not to those of the slow one.
-fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) -> Vec<EigenPair> {
+/// One Rayleigh-Ritz step in the converged modes, lowest first. Their projected matrix is graded and almost
+/// diagonal, so Jacobi rotations give each eigenvalue to full relative accuracy.
+fn rayleigh_ritz(structure: &Structure, modes: impl Iterator<Item = Vec<f64>>) -> Vec<EigenPair> {
     let mut basis = Basis::new(structure);
-    for vector in slowest_first {
+    for vector in modes {
         basis.push(vector);
     }
-    let count = basis.vectors.len() - RIGID;
+    let count = basis.vectors.len() - RIGID_BODY_MODES;
     let columns: Vec<Vec<f64>> = (0..count)
         .map(|i| {
-            let image = basis.flex(RIGID + i);
-            basis.products[RIGID..].iter().map(|product| dot(product, &image)).collect()
+            let image = basis.apply(RIGID_BODY_MODES + i);
+            basis.products[RIGID_BODY_MODES..].iter().map(|product| dot(product, &image)).collect()
         })
         .collect();
-    jacobi::eigen(leading_block(&columns))
+    jacobi::eigen(projected_matrix(&columns))
         .into_iter()
         .map(|(flexibility, weights)| EigenPair {
             flexibility,
@@ -239,8 +266,7 @@ fn polish(structure: &Structure, slowest_first: impl Iterator<Item = Vec<f64>>) 
         .collect()
 }
 
-/// In eight running sums: quicker, more accurate, and the same on every platform, in registers of any
-/// width.
+/// a^T b in eight partial sums: the same bits for registers of any width.
 #[multiversion(targets("x86_64+avx"))]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];

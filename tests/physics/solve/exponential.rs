@@ -102,7 +102,7 @@ fn exponential(system: &Duffing) -> Exponential<4, SLOW, 2> {
 /// One step of some length from a time, a state and its slope.
 fn tried(
     method: &mut impl Method<4>,
-    system: &Duffing,
+    system: &impl System<4>,
     [x, slope]: [&[f64; 4]; 2],
     [t, h]: [f64; 2],
     tolerance: f64,
@@ -112,7 +112,12 @@ fn tried(
 
 /// The state after 1 s in equal steps, whatever their error: none is below a tolerance of zero, so that
 /// none ends early; all are below a huge one.
-fn forced(method: &mut impl Method<4>, system: &Duffing, steps: u32, tolerance: f64) -> [f64; 4] {
+fn forced(
+    method: &mut impl Method<4>,
+    system: &impl System<4>,
+    steps: u32,
+    tolerance: f64,
+) -> [f64; 4] {
     let mut x = [0.3, 1.0, 2.0, 0.0];
     for step in 0..steps {
         let [start, end] = [step, step + 1].map(|i| f64::from(i) / f64::from(steps));
@@ -189,6 +194,75 @@ fn verif_the_error_found_is_no_less_than_that_of_the_step() {
         assert!(error < step.error + 1e-6, "{h} s: {error}, found {}", step.error);
     }
     assert!(early > 2 && whole > 2, "{early} steps ended early, {whole} did not");
+}
+
+/// The linear oscillator with a force t^power on every state.
+struct Forced {
+    power: i32,
+}
+
+impl System<4> for Forced {
+    fn derivatives(&self, t: f64, x: &[f64; 4]) -> [f64; 4] {
+        let force = t.powi(self.power);
+        [x[1] + force, x[2] + force, OMEGA * (force - OMEGA * x[1]), 0.0]
+    }
+    fn holds(&self, _: f64, _: &[f64; 4]) -> bool {
+        true
+    }
+    fn nominal(&self) -> &[f64; 4] {
+        &[1.0, 1.0, OMEGA, 1.0]
+    }
+}
+
+#[test]
+fn verif_polynomial_residuals_are_exact() {
+    // The stiff order conditions sum_j b_j(z) c_j^k / k! = phi_(k+1)(z) at z = 1.25i: for k up to 3 in a
+    // full step, up to 1 in one that ends at its second stage, and for no k beyond.
+    for (tolerance, highest) in [(WHOLE, 3), (EARLY, 1)] {
+        for power in 0..=highest + 1 {
+            let system = Forced { power };
+            let mut method = exponential(&Duffing { stiffening: 0.0 });
+            let ours = forced(&mut method, &system, 16, tolerance);
+            let exact = forced(&mut &DOP853, &system, 1000, EARLY);
+            let error = (0..3)
+                .map(|i| ((ours[i] - exact[i]) / system.nominal()[i]).abs())
+                .fold(0.0, f64::max);
+            assert_eq!(error < 1e-12, power <= highest, "t^{power}, {tolerance}: {error:e}");
+        }
+    }
+}
+
+/// x' = x in each state.
+struct Dahlquist;
+
+impl System<4> for Dahlquist {
+    fn derivatives(&self, _: f64, x: &[f64; 4]) -> [f64; 4] {
+        *x
+    }
+    fn holds(&self, _: f64, _: &[f64; 4]) -> bool {
+        true
+    }
+    fn nominal(&self) -> &[f64; 4] {
+        &[1.0; 4]
+    }
+}
+
+#[test]
+fn verif_the_classical_order_is_three_and_two() {
+    // Without a linear part this is a Runge-Kutta method. Of its polynomial R(z) the coefficient of z^4 is
+    // b A A c = 1/24 - 2/9 (3/4 b_1 + b_2 a_20), as stage 0 has order 1 and the others order 2.
+    let (z, x) = (0.5_f64.powi(7), [1.0; 4]);
+    let step = |tolerance: f64| {
+        let linear = Decoupling::<4, SLOW, 2>::new(&DMatrix::zeros(3, 3), Dahlquist.nominal());
+        tried(&mut Exponential::new(linear), &Dahlquist, [&x, &x], [0.0, z], tolerance).next[1]
+    };
+    let second_order = 1.0 + z + z * z / 2.0;
+    assert!((step(EARLY) - second_order).abs() < 1e-15);
+    let c = (1.0 - 0.2_f64.sqrt()) / 2.0;
+    let a20 = 4.5 * c * c * (0.5 - c / 3.0);
+    let expected = 1.0 / 24.0 - 2.0 / 9.0 * (0.75 / 12.0 + 5.0 / 12.0 * a20);
+    let fourth = (step(WHOLE) - second_order - z.powi(3) / 6.0) / z.powi(4);
+    assert!((fourth - expected).abs() < 1e-4, "{fourth}, not {expected}");
 }
 
 /// Two equal oscillators, one driven by the other: there is no basis of eigenvectors.
