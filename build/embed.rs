@@ -56,7 +56,7 @@ fn embed<T: Serialize + DeserializeOwned>(name: &str, file: &Path) {
     println!("cargo::rerun-if-changed={}", file.display());
     let text = fs::read_to_string(file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));
     let table = text.parse().unwrap_or_else(|e| panic!("{}: {e}", file.display()));
-    if let Some((key, problem)) = ranges::wrong(&table) {
+    if let Some((key, problem)) = ranges::first_problem(&table) {
         panic!("{}: {key}: {problem}", file.display());
     }
     let data: T = toml::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", file.display()));

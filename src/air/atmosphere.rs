@@ -1,21 +1,31 @@
-//! US Standard Atmosphere 1976 and the gravity of a round, non-rotating earth.
+//! US Standard Atmosphere 1976 and the gravity of a spherical, non-rotating earth.
+//!
+//! In a layer with temperature `T = T_m + L z`, z the geopotential height above its middle, hydrostatic
+//! equilibrium and the gas law give
+//!
+//! ```text
+//! T rho' = -(g0/R + L) rho                                  closed form: eqs 33a and 33b of the standard
+//! T_m (n+1) c_(n+1) = -(g0/R + L + n L) c_n                 Taylor series rho = sum_n c_n z^n
+//! ```
+//!
+//! The series costs half as much as an exponential and a logarithm, and needs no special case for L = 0.
 
 use crate::data::{EarthData, MAX_LAYERS};
 use crate::solve::Scalar;
 
-/// Terms of a layer's density, in pairs: enough for the last digit in every layer of the standard; that
-/// from 32 to 47 km needs the most.
+/// Terms of the series, in pairs: full double precision in every layer of the standard; that from 32 to
+/// 47 km needs the most.
 const PAIRS: usize = 12;
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Layer {
     middle_m: f64,
     lapse_k_per_m: f64,
-    /// In the middle, as the density's series.
+    /// T_m.
     temperature_k: f64,
-    /// How the density falls, K/m: g0/R and the lapse.
+    /// g0/R + L, K/m.
     fall_k_per_m: f64,
-    /// Taylor series of the density by the height above the middle, kg/m^3, m: even and odd powers.
+    /// c_n in kg/m^3 and m, as pairs of an even and an odd power.
     density: [[f64; 2]; PAIRS],
 }
 
@@ -44,8 +54,7 @@ pub struct Air<S> {
 }
 
 impl Atmosphere {
-    /// The layers one upon the other from sea level (US Standard Atmosphere 1976, eqs. 23, 33a and
-    /// 33b, each as its Taylor series).
+    /// The layers from sea level upwards (US Standard Atmosphere 1976, eqs 23, 33a, 33b).
     pub fn new(data: &EarthData) -> Self {
         let (air, gravity) = (&data.air, data.earth.gravity_m_per_s2.value);
         let gas_constant = air.gas_constant_j_per_kg_k.value;
@@ -72,9 +81,9 @@ impl Atmosphere {
         }
     }
 
-    /// Air at the geometric altitude `h` (m). Below sea level and above the last layer the nearest
-    /// edge is taken: an integrator may look there, a flight never gets there.
-    // Not inlined, or the whole series is loaded early and kept in memory over the next call.
+    /// Air at the geometric altitude `h` (m); outside the layers that of the nearest edge, which only trial
+    /// states of an integrator reach.
+    // Inlining would load the series early and spill it across the next call.
     #[inline(never)]
     pub fn air<S: Scalar>(&self, h: S) -> Air<S> {
         let (layer, height) = self.layer(h);
@@ -82,7 +91,7 @@ impl Atmosphere {
         Air { density, temperature, sound_speed: self.sound_speed_at(temperature) }
     }
 
-    /// Speed of sound, m/s, without the rest of [`Atmosphere::air`].
+    /// Speed of sound alone, m/s.
     pub fn sound_speed<S: Scalar>(&self, h: S) -> S {
         let (layer, height) = self.layer(h);
         self.sound_speed_at(layer.temperature(height))
@@ -122,12 +131,7 @@ impl Atmosphere {
 }
 
 impl Layer {
-    /// A layer between two edges, m, with its temperature, K, and density, kg/m^3, at the lower one.
-    ///
-    /// Of eqs. 33a and 33b stands here what both come from, the weight of the air with the law of the
-    /// gas: `T rho' = -(g0/R + L) rho` with `T = T_m + L z`. Its Taylor series costs half
-    /// of what an exponential function and a logarithm do, and knows no difference between layers of
-    /// constant and of changing temperature. Power by power: `T_m (n+1) c_(n+1) = -(g0/R + L + n L) c_n`.
+    /// A layer between two edges, m, with temperature, K, and density, kg/m^3, at the lower edge.
     fn new(
         [base_m, top_m]: [f64; 2],
         [temperature, density]: [f64; 2],

@@ -1,11 +1,12 @@
-//! Run-time curve fits: eq. (4).
+//! Curve fits of eq. (4).
 
 use super::envelope::Envelope;
 use crate::data::{AeroData, PolynomialData};
 use crate::solve::Scalar;
 use crate::structure::MODES;
 
-/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 + d3 d^3 + e a d in incidence a and elevator deflection d, rad.
+/// c0 + c1 a + c2 a^2 + c3 a^3 + d1 d + d2 d^2 + d3 d^3 + e a d, with incidence a and elevator deflection
+/// d in rad.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Polynomial<C = f64> {
     /// Coefficients of a^0 to a^3.
@@ -22,12 +23,12 @@ pub const LIFT: usize = 0;
 pub const DRAG: usize = 1;
 /// Row of both: C_M about the moment centre, without thrust.
 pub const MOMENT: usize = 2;
-/// Row of [`Aero::fits`]: C_T, in the incidence of the engine's inflow.
+/// Row of [`Aero::fits`]: C_T, a function of the incidence of the engine's inflow.
 pub const THRUST: usize = 3;
 /// Rows of [`Aero::fits`].
 pub const FITS: usize = 4;
 
-/// Polynomials side by side, of which a processor can take several at a time.
+/// One polynomial per row, coefficient by coefficient, for vector instructions.
 pub type Fits = Polynomial<[f64; FITS]>;
 
 impl Polynomial {
@@ -45,21 +46,21 @@ impl Polynomial {
         }
     }
 
-    /// The part that depends on the incidence.
+    /// The terms without elevator deflection.
     #[inline(always)]
     pub fn body<S: Scalar>(&self, alpha: S) -> S {
         let [c0, c1, c2, c3] = self.alpha;
         ((alpha * c3 + c2) * alpha + c1) * alpha + c0
     }
 
-    /// Whole polynomial.
+    /// The polynomial.
     #[inline(always)]
     pub fn at<S: Scalar>(&self, alpha: S, delta_e: S) -> S {
         let [d1, d2, d3] = self.delta_e;
         self.body(alpha) + ((delta_e * d3 + d2) * delta_e + alpha * self.cross + d1) * delta_e
     }
 
-    /// d/da of the whole polynomial, per rad.
+    /// d/da of the polynomial, per rad.
     pub fn slope(&self, alpha: f64, delta_e: f64) -> f64 {
         let [_, c1, c2, c3] = self.alpha;
         (3.0 * c3 * alpha + 2.0 * c2) * alpha + c1 + self.cross * delta_e
@@ -75,7 +76,7 @@ impl Fits {
         }
     }
 
-    /// One of them.
+    /// The polynomial of a row.
     #[inline(always)]
     pub fn row(&self, row: usize) -> Polynomial {
         Polynomial {
@@ -89,27 +90,27 @@ impl Fits {
 /// One number for each mode, flexible modes first, then slosh modes.
 pub type PerMode<C = f64> = [C; MODES];
 
-/// Generalised forces on the modes: aerodynamic terms over qbar S, thrust terms over the thrust; mode
-/// shapes are dimensionless, and both are divided by the modal mass.
+/// Generalised forces on the modes, divided by the modal mass: aerodynamic terms per qbar S, thrust terms
+/// per thrust. Mode shapes are dimensionless.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ModalForces<C = f64> {
-    /// N^0, N^alpha, N^alpha2: the rigid body's load, as a polynomial in the incidence.
+    /// N^0, N^alpha, N^alpha2: load of the rigid body, polynomial in the incidence.
     pub alpha: [PerMode<C>; 3],
-    /// N^delta_e, per rad; the modal force is to this as the elevator's lift to its slope at zero.
+    /// N^delta_e, per rad of [`Aero::elevator_bend`]'s effective deflection.
     pub delta_e: PerMode<C>,
-    /// Of the lift that the plume adds, C_L,phi phi.
+    /// Force of the plume's lift, per C_L,phi phi.
     pub plume: PerMode<C>,
-    /// Of the thrust's part across the body, T sin alpha, which acts at the mass centre.
+    /// Force of the thrust normal to the flight path, T sin alpha, at the mass centre.
     pub thrust_across: PerMode<C>,
-    /// Of the thrust's couple, T z_T, which acts at the nacelle.
+    /// Force of the thrust's couple, T z_T, at the nacelle.
     pub thrust_couple: PerMode<C>,
 }
 
-/// Row of [`Elastic::per`] in the place of the thrust: incidence of the engine's inflow, rad.
+/// Row of [`Elastic::per`]: incidence of the engine's inflow relative to that of the body, rad.
 pub const INFLOW: usize = THRUST;
-/// Row of [`Elastic::per`] of the first mode's force; those of the others follow.
+/// Row of [`Elastic::per`]: N_i of the first mode; the other modes follow.
 pub const MODAL_FORCE: usize = FITS;
-/// Row of [`Elastic::per`]: incidence of the whole body, rad.
+/// Row of [`Elastic::per`]: incidence of the body, rad.
 pub const INCIDENCE: usize = MODAL_FORCE + MODES;
 /// Rows of [`Elastic::per`].
 pub const ELASTIC_ROWS: usize = INCIDENCE + 1;
@@ -117,14 +118,13 @@ pub const ELASTIC_ROWS: usize = INCIDENCE + 1;
 /// Elastic terms of eq. (4) for one set of modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Elastic<C = f64> {
-    /// By each mode, flexible modes first, then slosh modes: what answers to eta, per m, and to
-    /// eta-dot/V; in pairs, as in the state. Its rows are C_L, C_D, C_M about the moment centre, the
-    /// incidence of the engine's inflow against that of the body, N_i over qbar S and the modal mass,
-    /// 1/kg, and the incidence of the body.
+    /// Derivatives with respect to eta, per m, and to eta-dot/V of each mode. Rows: C_L, C_D, C_M about
+    /// the moment centre, incidence of the engine's inflow relative to that of the body, N_i per qbar S
+    /// and modal mass (1/kg), incidence of the body.
     pub per: [[[C; ELASTIC_ROWS]; 2]; MODES],
-    /// The same rows per q/V, m.
+    /// Derivatives with respect to q/V, m; the same rows.
     pub pitch_rate: [C; ELASTIC_ROWS],
-    /// The rest of N_i.
+    /// Terms of N_i without eta, eta-dot and q.
     pub force: ModalForces<C>,
 }
 
@@ -141,22 +141,23 @@ pub struct Aero {
     pub thrust_arm: f64,
     /// Incidence of the elastic derivatives, rad.
     pub elastic_alpha: f64,
-    /// Factor on what bending does.
+    /// Factor on the derivatives with respect to bending.
     pub elastic_scale: f64,
     /// Elevator deflection of the elastic derivatives, rad.
     pub elastic_delta_e: f64,
     /// C_L, C_D, C_M and C_T without fuel.
     pub fits: Fits,
-    /// What they gain by the fuel ratio, in the incidence.
+    /// Derivatives of `fits` with respect to the fuel equivalence ratio.
     pub fits_phi: Fits,
-    /// The elevator's lift is delta_e + this delta_e^3, times its slope at zero, 1/rad^2.
+    /// Ratio k of the cubic to the linear term of the elevator's lift, 1/rad^2: the effective deflection is
+    /// delta_e + k delta_e^3.
     pub elevator_bend: f64,
-    /// Where all this holds.
+    /// Range of validity.
     pub envelope: Envelope,
 }
 
 impl Aero {
-    /// The run-time form of a data file.
+    /// From a data file.
     pub fn new(data: &AeroData) -> Self {
         let optional = |fit: &Option<PolynomialData>| {
             fit.as_ref().map_or_else(Polynomial::default, Polynomial::new)

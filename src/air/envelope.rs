@@ -1,4 +1,4 @@
-//! The region in which the curve fits hold. Nothing is flown outside it.
+//! The range of validity of the curve fits, which no flight leaves.
 
 use super::atmosphere::Atmosphere;
 use crate::error::{LimitedKind, LimitedQuantity};
@@ -12,13 +12,13 @@ pub struct Envelope {
     pub mach: [f64; 2],
     /// Altitude, m.
     pub altitude: [f64; 2],
-    /// Least margin of the burner from thermal choking, if the fits end there.
+    /// Smallest margin to thermal choking, if the fits are limited by it.
     pub choking_margin: Option<f64>,
 }
 
 impl Envelope {
-    /// Altitude, Mach number and incidence, of altitude (m), speed through the air (m/s) and incidence
-    /// to it (rad).
+    /// Altitude, Mach number and incidence with their limits, from altitude (m), airspeed (m/s) and incidence
+    /// (rad).
     pub fn limited_quantities(
         &self,
         atmosphere: &Atmosphere,
@@ -32,13 +32,13 @@ impl Envelope {
         ]
     }
 
-    /// Whether the fits hold there; never for what is not a number.
+    /// Whether the fits hold; false for NaN.
     pub fn holds(&self, atmosphere: &Atmosphere, condition: [f64; 3]) -> bool {
         self.limited_quantities(atmosphere, condition).iter().all(|limited| limited.margin() >= 0.0)
     }
 }
 
-/// The one with the smallest margin; there is one.
+/// The quantity with the smallest margin.
 pub fn tightest(limited: impl IntoIterator<Item = LimitedQuantity>) -> LimitedQuantity {
     let unlimited = LimitedQuantity {
         kind: LimitedKind::State(0),

@@ -1,22 +1,21 @@
-//! How much air the engine swallows, and the fuel that this asks for.
+//! Air captured by the engine, and the fuel flow.
 //!
-//! The lip lies in the layer between fore-body and bow shock, so the engine takes in what passes
-//! through the duct's height there: the free stream, compressed by the shock of the fore-body's
-//! angle. The shock relations are those of hypersonic similarity (J. D. Anderson, Hypersonic and
-//! High-Temperature Gas Dynamics, 2nd ed., section 2.3), with the exact speed behind the shock along
-//! the stream. Where fore-body and shock enclose less than the lip sees, above Mach 10.7 at small
-//! incidence, this is too much by up to 4 %; elsewhere it is that of the first-principles model,
+//! The lip lies between fore-body and bow shock, so the engine captures the flow through the duct's
+//! height there. The density behind the bow shock follows from hypersonic similarity (J. D. Anderson,
+//! Hypersonic and High-Temperature Gas Dynamics, 2nd ed., section 2.3), the velocity along the free
+//! stream from the exact relation. Above Mach 10.7 at small incidence the shock layer is thinner than the
+//! duct and the result is too large by up to 4 %; elsewhere it agrees with the first-principles model,
 //! `shock_expansion` in crates/research.
 
 use crate::data::{EarthData, VehicleData};
 use crate::solve::Scalar;
 
-/// Duct and fuel.
+/// Intake duct and fuel.
 #[derive(Debug, Clone, Copy)]
 pub struct Intake {
     /// Angle of the fore-body below the axis, rad.
     pub lower_angle: f64,
-    /// Height of the duct across the flow along the fore-body, m.
+    /// Height of the duct normal to the fore-body, m.
     pub height: f64,
     /// Fuel per air, by mass, at equivalence ratio 1.
     pub stoichiometric_ratio: f64,
@@ -36,14 +35,14 @@ impl Intake {
         }
     }
 
-    /// Height of the free stream that goes through the engine, m, at incidence `alpha`, rad.
+    /// Height of the captured free stream, m, at incidence `alpha`, rad.
     pub fn captured_height<S: Scalar>(&self, mach: S, alpha: S) -> S {
         let gamma = self.gamma;
         let turn = alpha + self.lower_angle;
-        // Mach number across the shock.
+        // Mach number normal to the shock: K/2 + sqrt(K^2/4 + 1), K = (gamma + 1)/2 M theta.
         let half = mach * turn * ((gamma + 1.0) / 4.0);
-        let across = half + (half * half + 1.0).sqrt();
-        let square = across * across;
+        let normal = half + (half * half + 1.0).sqrt();
+        let square = normal * normal;
         let density = square * (gamma + 1.0) / (square * (gamma - 1.0) + 2.0);
         let along = -(square - 1.0) * (2.0 / (gamma + 1.0)) / (mach * mach) + 1.0;
         let (_, cos) = turn.sin_cos();

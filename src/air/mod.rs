@@ -1,13 +1,13 @@
-//! Air and engine: eq. (4) of the paper, and where it holds.
+//! Air and engine: eq. (4) of the paper and its range of validity.
 //!
 //! | file | what it holds | where it comes from |
 //! |---|---|---|
-//! | `atmosphere` | air and gravity | US Standard Atmosphere 1976 |
-//! | `curve_fits` | curve fits at run time | eq. (4) |
-//! | `strip_theory` | where the elastic terms come from | eq. (4) |
-//! | `envelope` | where the fits hold | |
-//! | `intake` | how fast fuel burns | hypersonic similarity |
-//! | `choking` | how much fuel the burner can still take | NACA Report 1135 |
+//! | `atmosphere` | density, temperature, speed of sound, gravity | US Standard Atmosphere 1976 |
+//! | `curve_fits` | curve fits of the coefficients | eq. (4) |
+//! | `strip_theory` | elastic terms | eq. (4) |
+//! | `envelope` | range of validity of the fits | |
+//! | `intake` | captured air and fuel flow | hypersonic similarity |
+//! | `choking` | margin to thermal choking | NACA Report 1135 |
 
 mod atmosphere;
 mod choking;

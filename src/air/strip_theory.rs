@@ -1,22 +1,24 @@
-//! Where the elastic terms of eq. (4) come from: local incidence, integrated over the body.
+//! Elastic terms of eq. (4) by strip theory: local incidence, integrated over the body.
 //!
-//! No set of flexible coefficients was found, so they follow from the published rigid ones and
-//! the mode shapes. The body is cut at the end of the fore-body into two strips of uniform load;
-//! the elevator is a third surface, where the published lift and moment per deflection put it.
-//! The loads of the two strips are those that give the published lift *and* moment at every
-//! incidence, so the rigid body stays exactly as published.
+//! No published set of flexible coefficients was found, so they are derived from the rigid-body
+//! coefficients and the mode shapes. Two strips of uniform load meet at the end of the fore-body; their
+//! loads reproduce the published lift *and* moment at every incidence, so the rigid body stays exactly as
+//! published. The elevator is a third surface, at the station given by its published lift and moment.
 //!
-//! A mode moves the body by its mean translation and rotation ([`RigidMotion`]), as sloshing liquid
-//! does, and bends it by the rest. The rotation and the rate of the translation change the incidence of
-//! the whole body, in the published fits. Bending changes the local incidence by
-//! eps(x) = -w'(x) - w-dot(x)/V (x aft, w up), and the pitch rate q of the body by q (x - x_cg)/V. Strip
-//! and elevator answer with their lift slope at one reference incidence.
+//! The mean translation and rotation of a mode ([`RigidMotion`]) change the incidence of the whole body
+//! in the published fits. Bending, the rest of the mode, changes the local incidence, as does pitch rate:
 //!
-//! Eq. (4) has no terms in the pitch rate. The strips give them, in lift, drag, moment, thrust and modal
-//! forces alike; `pitch_rate` says which part of them counts: 0 as printed, 1 by strip theory.
+//! ```text
+//! eps(x) = -w'(x) - w-dot(x)/V + q (x - x_cg)/V          x aft, w up
+//! ```
 //!
-//! The thrust is not in the printed N_i. It belongs there: its couple z_T T balances the moment of
-//! the air, and a beam that feels one without the other seems to spin.
+//! Strips and elevator respond with their lift slope at one reference incidence.
+//!
+//! Eq. (4) has no terms in the pitch rate. Those of strip theory, in lift, drag, moment, thrust and modal
+//! forces, are multiplied by `pitch_rate`: 0 as printed, 1 for strip theory.
+//!
+//! The printed N_i lack the thrust. It is included here: its couple z_T T balances the aerodynamic
+//! moment, and a modal load with only one of the two would not be in equilibrium.
 
 use super::curve_fits::{
     Aero, DRAG, ELASTIC_ROWS, Elastic, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT, PerMode,
@@ -26,7 +28,7 @@ use crate::data::Geometry;
 use crate::structure::RigidMotion;
 use crate::structure::{Beam, MODES, Modes, Point, Shape};
 
-/// A part of the body that answers to local incidence.
+/// A surface with lift due to local incidence.
 struct LiftingSurface {
     /// Lift coefficient of the undeformed body as a polynomial in the incidence.
     load: [f64; 3],
@@ -36,7 +38,7 @@ struct LiftingSurface {
     mean: SurfaceMeans,
 }
 
-/// Averages over a surface of mode shapes phi_i, their slopes phi_i', and products.
+/// Averages over a surface of x, mode shapes phi_i, their slopes phi_i', and products.
 #[derive(Debug, Clone, Copy, Default)]
 struct SurfaceMeans {
     x: f64,
@@ -50,7 +52,7 @@ struct SurfaceMeans {
 }
 
 impl SurfaceMeans {
-    /// Averages over places whose weights add up to `total`; x from the nose.
+    /// Averages over points whose weights add up to `total`; x from the nose.
     fn over(points: impl Iterator<Item = Point>, total: f64, shapes: &[Shape]) -> Self {
         let mut mean = Self::default();
         let (mut phi, mut slope) = ([0.0; MODES], [0.0; MODES]);
@@ -88,7 +90,7 @@ impl SurfaceMeans {
     }
 }
 
-/// A field of incidence over a surface: its averages by itself, times x and times each shape.
+/// A distribution of incidence over a surface: its averages with the weights 1, x and each shape.
 #[derive(Debug, Clone, Copy, Default)]
 struct IncidenceField {
     one: f64,
@@ -107,7 +109,7 @@ impl IncidenceField {
 }
 
 impl SurfaceMeans {
-    /// The field that is 1 everywhere.
+    /// 1.
     fn unit(&self) -> IncidenceField {
         IncidenceField { one: 1.0, x: self.x, phi: self.phi }
     }
@@ -132,7 +134,7 @@ impl SurfaceMeans {
     }
 }
 
-/// The two strips of the body with their averages: all that takes an integration over the beam.
+/// Averages over the two strips: everything that needs integration along the beam.
 #[derive(Debug, Clone)]
 pub struct StripIntegrals {
     fore: SurfaceMeans,
@@ -141,12 +143,12 @@ pub struct StripIntegrals {
     engine: Point,
     /// Mean translation and rotation of the body in each mode.
     moved: [[f64; 2]; MODES],
-    /// Where the translation is, m from the nose.
+    /// Station of that translation, m from the nose.
     body_centre: f64,
 }
 
 impl StripIntegrals {
-    /// Cuts the beam at the end of the fore-body.
+    /// Strips ahead of and behind the end of the fore-body.
     pub fn new(beam: &Beam, modes: &Modes, geometry: &Geometry) -> Self {
         let cut = geometry.fore_body_m.value;
         let strip =
@@ -207,18 +209,17 @@ fn surfaces(
     ]
 }
 
-/// Where the lift that the fuel adds acts, m from the nose; none if it adds none.
+/// Station at which the lift due to fuel acts, m from the nose; none without such lift.
 fn plume_station(aero: &Aero) -> Option<f64> {
     let [lift, moment] = [LIFT, MOMENT].map(|row| aero.fits_phi.row(row).body(aero.elastic_alpha));
-    // The divisor is chosen: a compiler may divide before it asks.
+    // A compiler may execute a division before the condition that guards it.
     let divisor = if lift == 0.0 { 1.0 } else { lift };
     (lift != 0.0).then_some(aero.moment_centre - aero.chord * moment / divisor)
 }
 
 /// Elastic terms of eq. (4) for the given modes; modal forces are divided by the modal mass.
 ///
-/// `mass_centre` is its station from the nose (m), `pitch_rate` the part of the terms in the pitch rate
-/// that counts.
+/// `mass_centre`: station, m from the nose; `pitch_rate`: factor on the terms in the pitch rate.
 pub fn elastic_derivatives(
     aero: &Aero,
     beam: &Beam,
@@ -233,16 +234,16 @@ pub fn elastic_derivatives(
     let [drag_slope, lift_slope] =
         [DRAG, LIFT].map(|row| aero.fits.row(row).slope(aero.elastic_alpha, aero.elastic_delta_e));
     let per_mass: PerMode = std::array::from_fn(|i| modes.per_modal_mass(i));
-    // What the air answers to a field of incidence.
-    let answer = |field: &dyn Fn(&SurfaceMeans) -> IncidenceField| {
+    // Row by row, the response to a distribution of incidence.
+    let response = |field: &dyn Fn(&SurfaceMeans) -> IncidenceField| {
         let start = IncidenceField::default();
         let sum = surfaces.iter().fold(start, |sum, s| sum.plus(s.slope, field(&s.mean)));
         let mut rows = [0.0; ELASTIC_ROWS];
         rows[LIFT] = sum.one;
-        // A strip's drag due to incidence is in the ratio of the whole body's to its lift.
+        // Drag slope over lift slope is that of the whole body.
         rows[DRAG] = drag_slope / lift_slope * sum.one;
         rows[MOMENT] = -sum.x / aero.chord;
-        // The engine swallows what the fore-body has turned.
+        // The engine's inflow follows the fore-body.
         rows[INFLOW] = field(&surfaces[0].mean).one;
         for i in 0..MODES {
             rows[MODAL_FORCE + i] = sum.phi[i] * per_mass[i];
@@ -253,19 +254,19 @@ pub fn elastic_derivatives(
     let mut elastic = Elastic::default();
     let shift = mass_centre - aero.moment_centre;
     elastic.pitch_rate =
-        answer(&|m| m.station().plus(-shift, m.unit())).map(|row| pitch_rate * row);
+        response(&|m| m.station().plus(-shift, m.unit())).map(|row| pitch_rate * row);
     for k in 0..modes.shape.len() {
         let [translation, rotation] = strips.moved[k];
-        // Of the rigid part of the mode, by the distance from the moment centre.
+        // Rigid part of the mode at the moment centre.
         let at_centre = translation + rotation * (aero.moment_centre - strips.body_centre);
-        let bent = answer(&|m| m.slope(k).plus(-rotation, m.unit()));
-        let bending =
-            answer(&|m| m.deflection(k).plus(-at_centre, m.unit()).plus(-rotation, m.station()));
+        let slope_response = response(&|m| m.slope(k).plus(-rotation, m.unit()));
+        let deflection_response =
+            response(&|m| m.deflection(k).plus(-at_centre, m.unit()).plus(-rotation, m.station()));
         let [per_eta, per_rate] = &mut elastic.per[k];
-        *per_eta = bent.map(|row| -aero.elastic_scale * row);
+        *per_eta = slope_response.map(|row| -aero.elastic_scale * row);
         per_eta[INCIDENCE] = -rotation;
         *per_rate = std::array::from_fn(|row| {
-            -aero.elastic_scale * bending[row] - rotation * elastic.pitch_rate[row]
+            -aero.elastic_scale * deflection_response[row] - rotation * elastic.pitch_rate[row]
         });
         per_rate[INCIDENCE] = -(at_centre + rotation * shift);
     }
@@ -282,7 +283,7 @@ pub fn elastic_derivatives(
         force.delta_e[i] = aero.fits.delta_e[0][LIFT] * surfaces[2].mean.phi[i] * per_mass;
         force.thrust_across[i] = shape.w_at(&centre) * per_mass;
         force.plume[i] = plume.map_or(0.0, |place| shape.w_at(&place) * per_mass);
-        // Nose up and w up: the couple works on a falling slope.
+        // A nose-up couple does positive work on a negative slope.
         force.thrust_couple[i] = -aero.thrust_arm * shape.slope_at(&strips.engine) * per_mass;
     }
     elastic

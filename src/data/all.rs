@@ -8,17 +8,17 @@ use crate::error::Error;
 /// Coefficient set of eq. (4). The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AeroSet {
-    /// Published set, moved as little as possible towards Tables 2 and 3.
+    /// Published set, changed as little as possible towards Tables 2 and 3.
     Xu2015 = 1,
     /// Published rigid part, derived elastic part.
     Parker2007 = 2,
     /// Regression of the first-principles model.
     ShockExpansion = 3,
-    /// That of the user, in a library that was built with one.
+    /// The user's set, in a library built with one.
     Own = 4,
 }
 
-/// All data files, read and checked; boxed, as together they are too large for a small stack.
+/// All data files, read and checked; boxed, as together they would exceed a small stack.
 #[derive(Debug, Clone)]
 pub struct Data {
     /// Vehicle.
@@ -31,13 +31,13 @@ pub struct Data {
     pub parker2007: Box<AeroData>,
     /// Coefficient set fitted to the first-principles model.
     pub shock_expansion: Box<AeroData>,
-    /// Coefficient set of the user.
+    /// The user's coefficient set.
     pub own: Option<Box<AeroData>>,
 }
 
-/// A file's data, in a frame of its own: reading takes several times their room.
+/// Data of a file. Not inlined: reading needs a stack frame several times their size.
 #[inline(never)]
-fn boxed<T: DataFile>(file: &Embedded) -> Result<Box<T>, Error> {
+fn read<T: DataFile>(file: &Embedded) -> Result<Box<T>, Error> {
     T::embedded(file).map(Box::new)
 }
 
@@ -48,12 +48,12 @@ impl Data {
     /// [`Error::Data`] with file, key and limit.
     pub fn embedded() -> Result<Self, Error> {
         Ok(Self {
-            vehicle: boxed(&VEHICLE)?,
-            earth: boxed(&EARTH)?,
-            xu2015: boxed(&XU2015)?,
-            parker2007: boxed(&PARKER2007)?,
-            shock_expansion: boxed(&SHOCK_EXPANSION)?,
-            own: OWN.as_ref().map(boxed).transpose()?,
+            vehicle: read(&VEHICLE)?,
+            earth: read(&EARTH)?,
+            xu2015: read(&XU2015)?,
+            parker2007: read(&PARKER2007)?,
+            shock_expansion: read(&SHOCK_EXPANSION)?,
+            own: OWN.as_ref().map(read).transpose()?,
         })
     }
 

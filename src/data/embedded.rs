@@ -1,17 +1,17 @@
-//! The data files as the library was built with them.
+//! Data files embedded in the library.
 
-/// A data file as the library was built with it.
+/// A data file embedded in the library.
 #[derive(Debug, Clone, Copy)]
 pub struct Embedded {
     /// Name, for messages.
     pub name: &'static str,
     /// The file itself.
     pub text: &'static str,
-    /// The same without its comments, packed.
+    /// Its data in postcard format.
     pub packed: &'static [u8],
 }
 
-/// The build script put the files there.
+/// A file written by the build script.
 macro_rules! embedded {
     ($name:literal) => {
         Embedded {
@@ -32,7 +32,7 @@ pub const XU2015: Embedded = embedded!("aero/xu2015");
 pub const PARKER2007: Embedded = embedded!("aero/parker2007");
 /// Coefficient set fitted to the first-principles model.
 pub const SHOCK_EXPANSION: Embedded = embedded!("aero/shock_expansion");
-/// Coefficient set of the user, if the library was built with one.
+/// The user's coefficient set, if the library was built with one.
 pub const OWN: Option<Embedded> = own();
 
 /// All data files.
@@ -49,5 +49,5 @@ const fn own() -> Option<Embedded> {
     None
 }
 
-/// Names of the user's files that the library was built with; empty for our vehicle.
+/// Names of the user's data files in this library; empty for the standard vehicle.
 pub const OWN_FILES: &str = env!("AHV_OWN_FILES");

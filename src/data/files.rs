@@ -1,4 +1,4 @@
-//! What stands in the data files. The build script reads them with the same types.
+//! Contents of the data files. The build script reads them with the same types.
 
 use super::quantity::Quantity;
 use super::shape::{EngineData, Outline};
@@ -41,7 +41,7 @@ pub struct Geometry {
     pub nacelle_m: Quantity,
 }
 
-/// Mass of the full vehicle and the propellant's part in it.
+/// Mass of the full vehicle and its propellant.
 #[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
@@ -53,7 +53,7 @@ pub struct Mass {
     pub beam_joint_m: Quantity,
     /// Propellant over take-off mass.
     pub propellant_fraction: Quantity,
-    /// Part of the propellant that stays in the tanks at `fuel_fraction` 0.
+    /// Fraction of the propellant that remains in the tanks at `fuel_fraction` 0.
     pub residual_fraction: Quantity,
 }
 
@@ -77,9 +77,9 @@ pub struct TankData {
     pub name: String,
     /// Middle of the tank, m.
     pub centre_m: Quantity,
-    /// Extent along the body over which the frozen liquid is spread, m.
+    /// Length along the body over which the frozen liquid is distributed, m.
     pub length_m: Quantity,
-    /// Part of the propellant in this tank.
+    /// Fraction of the propellant in this tank.
     pub share: Quantity,
     /// Length of a bay between baffles along the sloshing motion, m.
     pub bay_length_m: Quantity,
@@ -87,11 +87,11 @@ pub struct TankData {
     pub depth_full_m: Quantity,
 }
 
-/// Where the controls saturate.
+/// Limits of the controls.
 #[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Actuation {
-    /// Largest elevator deflection either way, rad.
+    /// Largest elevator deflection in either direction, rad.
     pub delta_e_limit_rad: Quantity,
     /// Largest fuel equivalence ratio.
     pub phi_limit: Quantity,
@@ -101,7 +101,7 @@ pub struct Actuation {
 #[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Defaults {
-    /// Propellant left.
+    /// Fuel fraction.
     pub fuel_fraction: Quantity,
     /// Damping ratio of the sloshing masses.
     pub slosh_damping: Quantity,
@@ -175,13 +175,13 @@ pub struct AeroData {
     pub thrust: PolynomialData,
     /// C_T per fuel equivalence ratio.
     pub thrust_phi: PolynomialData,
-    /// C_L per fuel equivalence ratio: the plume lifts the aft-body.
+    /// C_L per fuel equivalence ratio, due to the plume under the aft-body.
     pub lift_phi: Option<PolynomialData>,
     /// C_D per fuel equivalence ratio.
     pub drag_phi: Option<PolynomialData>,
     /// C_M per fuel equivalence ratio, without the thrust.
     pub moment_phi: Option<PolynomialData>,
-    /// Where the fits hold.
+    /// Range of validity.
     pub envelope: EnvelopeData,
 }
 
@@ -201,10 +201,10 @@ pub struct Reference {
     pub elastic_alpha_rad: Quantity,
     /// Factor on all elastic terms; 1 as they are derived.
     pub elastic_scale: Quantity,
-    /// Elevator deflection at which they are taken, rad; matters if the lift is cubic in it.
+    /// Elevator deflection at which they are taken, rad; relevant if the lift is cubic in it.
     pub elastic_delta_e_rad: Option<Quantity>,
-    /// Station whose flight-path angle Table 3 reads in the flexible columns, m aft of the mass centre;
-    /// read by reports only.
+    /// Station of the flight-path angle in the flexible columns of Table 3, m aft of the mass centre;
+    /// used by reports only.
     pub gamma_offset_m: Option<Quantity>,
 }
 
@@ -216,15 +216,15 @@ pub struct Inertia {
     pub i_yy_kg_m2_per_m: Quantity,
     /// Damping ratio of the structure in each flexible mode.
     pub structural_damping: Quantity<[f64; FLEXIBLE]>,
-    /// Mass centre of the flexible configurations against that of beam and sloshing masses, m aft.
+    /// Mass centre of the flexible configurations relative to that of beam and sloshing masses, m aft.
     pub mass_centre_shift_m: Option<Quantity>,
 }
 
-/// A polynomial in incidence and elevator deflection; what is not given is zero.
+/// A polynomial in incidence and elevator deflection; omitted coefficients are zero.
 #[derive(Debug, Clone, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PolynomialData {
-    /// Term without angle.
+    /// Constant term.
     pub constant: Option<Quantity>,
     /// Per rad of incidence.
     pub alpha: Option<Quantity>,
@@ -252,7 +252,6 @@ pub struct EnvelopeData {
     pub mach: Quantity<[f64; 2]>,
     /// Altitude, m.
     pub altitude_m: Quantity<[f64; 2]>,
-    /// Least equivalence ratio that can still be added before the burner chokes; no limit if not
-    /// given.
+    /// Smallest equivalence ratio that can be added before the burner chokes; no limit if omitted.
     pub choking_margin: Option<Quantity>,
 }

@@ -1,7 +1,6 @@
-//! The numbers of the vehicle: each with value, unit, source and status, from Tables 1-3 of the paper and
-//! the literature.
-//!
-//! The data files stand beside this code. The build script checks them and packs them into the library.
+//! Data of vehicle, earth and coefficient sets: each number with value, unit, source and status, from
+//! Tables 1-3 of the paper and the literature. The build script checks the data files and embeds them in
+//! the library.
 
 mod all;
 mod embedded;

@@ -3,19 +3,19 @@
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::sync::Arc;
 
-/// How far a number can be trusted.
+/// Reliability of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// Printed in the source.
     Published,
-    /// Published, in other units.
+    /// Published in other units.
     Converted,
-    /// Follows from published numbers.
+    /// Derived from published numbers.
     Derived,
-    /// Fitted so that published results come out.
+    /// Fitted to published results.
     Identified,
-    /// A plausible choice of ours.
+    /// A plausible assumption.
     Assumed,
 }
 
@@ -26,7 +26,7 @@ pub struct Origin {
     pub unit: String,
     /// Where the number comes from.
     pub source: String,
-    /// How far it can be trusted.
+    /// Reliability.
     pub status: Status,
 }
 

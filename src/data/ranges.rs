@@ -1,29 +1,27 @@
-//! What a key's name promises of its number: the unit, which the file must give too, and the range.
-//! The build script asks as well, so no library is built with other numbers.
+//! Unit and range of each number, from the ending of its key. The build script applies the same check.
 
 use crate::short::short;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use toml::{Table, Value};
 
-/// Ending of a key, the unit and the range; the first that fits counts. The ranges are wider than any
-/// vehicle: within them the equations have finite values. What also depends on other numbers of the
-/// file is checked with its types.
+/// Ending of a key, unit and range; the first match applies. The ranges exceed those of any vehicle, and
+/// the equations are finite within them. Relations between numbers are checked in `validate`.
 const KINDS: [(&str, &str, [f64; 2]); 48] = [
-    // Three bending modes need elements to live on. Beyond 2,000 frequencies move by 1e-6, and a start
-    // with fuel that burns, which solves the modes at 33 levels, takes seconds.
+    // The lower limit resolves three bending modes. Beyond 2,000 the frequencies change by 1e-6, and a
+    // start with fuel burn, with modes at 33 fuel levels, takes seconds.
     ("elements", "1", [8.0, 2000.0]),
     ("_kg_m2_per_m", "kg m^2/m", [1.0, 1e10]),
     ("_n_m2_per_m", "N m^2/m", [1.0, 1e13]),
     ("_kg_per_m2", "kg/m^2", [1e-3, 1e6]),
     ("_j_per_kg_k", "J/(kg K)", [1.0, 1e5]),
-    // That of the parameter.
+    // As for the parameter.
     ("slosh_frequency_rad_per_s", "rad/s", [0.0, 100.0]),
     ("_rad_per_s", "rad/s", [0.0, 1e4]),
     ("_j_per_kg", "J/kg", [1e3, 1e10]),
     ("_m_per_s2", "m/s^2", [1e-3, 1e3]),
     ("_m2_per_m", "m^2/m", [1e-3, 1e3]),
     ("_k_per_m", "K/m", [-1.0, 1.0]),
-    // A surface steeper than 45 deg is no slender body.
+    // Slender body: at most 45 deg.
     ("lower_angle_rad", "rad", [1e-3, FRAC_PI_4]),
     ("upper_angle_rad", "rad", [1e-3, FRAC_PI_4]),
     ("_limit_rad", "rad", [1e-6, FRAC_PI_2]),
@@ -34,7 +32,7 @@ const KINDS: [(&str, &str, [f64; 2]); 48] = [
     ("altitude_m", "m", [0.0, 85_000.0]),
     ("layer_base_m", "m", [0.0, 1e5]),
     ("top_m", "m", [1.0, 1e5]),
-    // Distances by which a place along the body is corrected.
+    // Corrections of stations.
     ("_shift_m", "m", [-100.0, 100.0]),
     ("_offset_m", "m", [-100.0, 100.0]),
     ("length_m", "m", [1e-3, 1e3]),
@@ -52,7 +50,7 @@ const KINDS: [(&str, &str, [f64; 2]); 48] = [
     ("alpha", "1/rad", [-1e3, 1e3]),
     ("delta_e", "1/rad", [-1e3, 1e3]),
     ("constant", "1", [-100.0, 100.0]),
-    // Parts and ratios.
+    // Fractions and ratios.
     ("_fraction", "1", [0.0, 1.0]),
     ("share", "1", [1e-6, 1.0]),
     ("_damping", "1", [0.0, 1.0]),
@@ -63,35 +61,35 @@ const KINDS: [(&str, &str, [f64; 2]); 48] = [
     ("heat_capacity_ratio", "1", [1.01, 2.0]),
     ("choking_margin", "1", [-1.0, 1.0]),
     ("phi_limit", "1", [1e-3, 10.0]),
-    // That of the parameter.
+    // As for the parameter.
     ("mach", "1", [0.1, 30.0]),
 ];
 
-/// The first number of a file with another unit than its key promises, or out of the range: its path,
-/// and what is wrong. What is no number with a unit at all is left to the types of the file.
-pub fn wrong(table: &Table) -> Option<(String, String)> {
+/// Path and problem of the first number of a file with the wrong unit or out of range. Entries that are
+/// not numbers with units are left to deserialisation.
+pub fn first_problem(table: &Table) -> Option<(String, String)> {
     table.iter().find_map(|(key, value)| match value {
         Value::Table(number) if number.contains_key("value") => {
             Some((key.clone(), problem(key, number)?))
         }
-        Value::Table(inner) => below(key, inner),
+        Value::Table(inner) => nested(key, inner),
         Value::Array(rows) => rows.iter().filter_map(Value::as_table).find_map(|row| {
             let name = row.get("name").and_then(Value::as_str).unwrap_or_default();
-            below(&format!("{key}.{name}"), row)
+            nested(&format!("{key}.{name}"), row)
         }),
         _ => None,
     })
 }
 
-fn below(key: &str, table: &Table) -> Option<(String, String)> {
-    wrong(table).map(|(path, problem)| (format!("{key}.{path}"), problem))
+fn nested(key: &str, table: &Table) -> Option<(String, String)> {
+    first_problem(table).map(|(path, problem)| (format!("{key}.{path}"), problem))
 }
 
-/// What is wrong with a number, or with one of a list.
+/// Problem of a number, or of the first one in a list.
 fn problem(key: &str, number: &Table) -> Option<String> {
     let known = KINDS.iter().find(|(ending, ..)| key.ends_with(ending));
     let Some((_, promised, [min, max])) = known else {
-        return Some("there is no such quantity".into());
+        return Some("unknown quantity".into());
     };
     let unit = number.get("unit").and_then(Value::as_str)?;
     if unit != *promised {

@@ -1,4 +1,4 @@
-//! Reading and checking of the data files: a wrong number is refused with file, key and limit.
+//! Reads and checks the data files; errors give file, key, value and limit.
 
 use super::embedded::Embedded;
 use super::files::{AeroData, EarthData, VehicleData};
@@ -7,17 +7,17 @@ use crate::error::Error;
 use crate::short::short;
 use serde::de::DeserializeOwned;
 
-/// The shares of the tanks are printed with four digits and must add up to one.
-const SHARES_ADD_UP: f64 = 1e-9;
-/// Most stations of the stiffness table: as many as elements at most.
-const STATIONS: usize = 2000;
+/// Tolerance of the sum of the tanks' shares.
+const SHARES_TOLERANCE: f64 = 1e-9;
+/// Limit of stations in the stiffness table, that of elements.
+const MAX_STATIONS: usize = 2000;
 
-/// Most layers of the air: the standard has seven below 84.852 km.
+/// Limit of layers of the atmosphere; the standard has seven below 84.852 km.
 pub const MAX_LAYERS: usize = 8;
 
 /// A data file that can be read and checked.
 pub trait DataFile: DeserializeOwned {
-    /// Reads and checks a text in TOML; `file` is its name for messages.
+    /// Reads and checks TOML text; `file` is its name for messages.
     ///
     /// # Errors
     /// [`Error::Data`] with the key or the line, the value and the limit.
@@ -30,7 +30,7 @@ pub trait DataFile: DeserializeOwned {
                 problem: error.message().to_string(),
             }
         };
-        if let Some((key, problem)) = ranges::wrong(&text.parse().map_err(unreadable)?) {
+        if let Some((key, problem)) = ranges::first_problem(&text.parse().map_err(unreadable)?) {
             return Err(Error::Data { file: file.to_string(), key, problem });
         }
         let data: Self = toml::from_str(text).map_err(unreadable)?;
@@ -38,7 +38,7 @@ pub trait DataFile: DeserializeOwned {
         Ok(data)
     }
 
-    /// Reads and checks a file that the library carries.
+    /// Reads and checks an embedded file.
     ///
     /// # Errors
     /// [`Error::Data`] with the key, the value and the limit.
@@ -52,14 +52,14 @@ pub trait DataFile: DeserializeOwned {
         Ok(data)
     }
 
-    /// Whether the numbers are those of a vehicle.
+    /// Checks relations between numbers.
     ///
     /// # Errors
     /// [`Error::Data`] with the key, the value and the limit.
     fn check(&self, check: &Check) -> Result<(), Error>;
 }
 
-/// The checks of one file; the first wrong number is reported.
+/// Checks of one file.
 #[derive(Debug)]
 pub struct Check<'a> {
     file: &'a str,
@@ -127,8 +127,8 @@ impl VehicleData {
         check.that(stiffness.len() == stations.len(), "beam.stiffness_n_m2_per_m", || {
             format!("{} values for {} stations", stiffness.len(), stations.len())
         })?;
-        check.that(stations.len() <= STATIONS, "beam.stiffness_station_m", || {
-            format!("{} stations, at most {STATIONS}", stations.len())
+        check.that(stations.len() <= MAX_STATIONS, "beam.stiffness_station_m", || {
+            format!("{} stations, at most {MAX_STATIONS}", stations.len())
         })
     }
 
@@ -142,7 +142,7 @@ impl VehicleData {
             })?;
         }
         let total: f64 = self.tank.iter().map(|tank| tank.share.value).sum();
-        check.that((total - 1.0).abs() < SHARES_ADD_UP, "tank.share", || {
+        check.that((total - 1.0).abs() < SHARES_TOLERANCE, "tank.share", || {
             format!("the shares add up to {total}, must add up to 1")
         })
     }
@@ -176,7 +176,7 @@ impl DataFile for AeroData {
                 "thrust does not depend on the elevator".into()
             })?;
         }
-        // The elastic terms are derived from loads that are quadratic in the incidence.
+        // The elastic terms are derived from loads quadratic in the incidence.
         for (key, fit) in [("lift.alpha3", &self.lift), ("moment.alpha3", &self.moment)] {
             check.that(fit.alpha3.is_none(), key, || "lift and moment must be quadratic".into())?;
         }

@@ -1,18 +1,22 @@
-//! Flight with fuel that burns.
+//! Eq. (3) while fuel burns.
 
 use super::loads::Airflow;
 use crate::solve::Scalar;
 use crate::vehicle::{Airframe, Control, FUEL, FuelTable, Gust, PHI, State, Vehicle, eta, eta_dot};
 
 impl Vehicle {
-    /// Rates while fuel burns, and what `f` makes of them and of those without the turning of the shapes.
+    /// Applies `f` to the airframe, the airflow and the state derivatives [in modal coordinates, sensed].
     ///
-    /// Fuel leaves its place with the velocity that it has there, so `M u'' + K u = F` holds for the
-    /// displacement u of the beam at any fuel f. In modal coordinates, `u = Phi(f) eta`, this becomes
-    /// `eta'' + 2 f' B eta' + D eta' + K eta = N` with `B = mu^-1 Phi^T M dPhi/df`. What is left out,
-    /// `(f'^2 mu^-1 Phi^T M d^2Phi/df^2 + f'' B) eta`, is of second order in f' (errata, 22). Of the
-    /// acceleration of a place, `2 f' dPhi/df eta'` makes up for the turning: an accelerometer feels
-    /// `Phi` times the rest.
+    /// Fuel leaves with the local velocity of the beam, so M u'' + K u = F holds for its displacement u
+    /// at any fuel mass f. With the modal expansion u = Phi(f) eta,
+    ///
+    /// ```text
+    /// eta'' + 2 f' B eta' + D eta' + K eta = N,   B = mu^-1 Phi^T M dPhi/df
+    /// ```
+    ///
+    /// neglecting `(f'^2 mu^-1 Phi^T M d^2Phi/df^2 + f'' B) eta`, of second order in f' (errata, 22). The
+    /// acceleration of a point is Phi (eta'' + 2 f' B eta'), so an accelerometer senses the modal
+    /// acceleration without the term in B.
     #[inline(never)]
     pub(super) fn with_fuel_burn<S: Scalar, T>(
         &self,

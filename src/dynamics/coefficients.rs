@@ -1,8 +1,8 @@
-//! Coefficients of eq. (4): sums over all modes, term by term for all quantities at once.
+//! Coefficients of eq. (4): sums over all modes, for all coefficients at once.
 //!
-//! The same operations in the same order on every processor, so the same bits, but four quantities at a
-//! time where it can. They are functions of their own: inlined among others, whose results go to
-//! memory in pairs, a compiler packs them in pairs as well.
+//! The order of operations does not depend on the processor, so the bits do not either; AVX computes four
+//! coefficients at a time. The functions are not inlined: among code that stores pairs the compiler would
+//! vectorise in pairs only.
 
 use crate::air::curve_fits::{
     Aero, DRAG, ELASTIC_ROWS, Elastic, FITS, INCIDENCE, INFLOW, LIFT, MODAL_FORCE, MOMENT, PerMode,
@@ -11,7 +11,7 @@ use crate::solve::{Over, Scalar};
 use crate::vehicle::{Control, Q, State, eta, eta_dot};
 use multiversion::multiversion;
 
-/// Adds a term to each of some quantities.
+/// sum_i += factor per_i.
 #[inline(always)]
 pub(super) fn add<C: Copy, S: Scalar + Over<C>, const N: usize>(
     sum: &mut [S; N],
@@ -23,24 +23,23 @@ pub(super) fn add<C: Copy, S: Scalar + Over<C>, const N: usize>(
     }
 }
 
-/// What decides eq. (4), without the dynamic pressure.
+/// Coefficients of eq. (4) and the angles they depend on.
 pub struct Coefficients<S> {
     /// C_L, C_D, C_M and C_T.
     pub body: [S; FITS],
-    /// Lift coefficient that the plume adds.
+    /// Lift coefficient due to the plume.
     pub plume: S,
-    /// The elevator's lift over its slope at zero, rad.
+    /// Effective elevator deflection, delta_e + k delta_e^3, rad.
     pub elevator: S,
-    /// Incidence of the body, rad: that of the mean axes and what sloshing liquid turns it by.
+    /// Incidence of the body, rad: that of the mean axes plus its rotation by sloshing liquid.
     pub incidence: S,
     /// Incidence of the engine's inflow, rad.
     pub inflow: S,
-    /// What the air answers to bending and pitch rate in N_i, over qbar S and the modal mass, 1/kg.
+    /// N_i due to bending and pitch rate, per qbar S and modal mass, 1/kg.
     pub forces: PerMode<S>,
 }
 
-/// Coefficients at a state in air that meets the vehicle at an incidence (rad) and a speed (of which one
-/// over it is given, s/m).
+/// Coefficients at a state; incidence `alpha` (rad) and 1/airspeed (s/m) are those of the relative wind.
 #[multiversion(targets("x86_64+avx"))]
 pub fn coefficients<C: Copy, S: Scalar + Over<C>>(
     aero: &Aero,

@@ -7,9 +7,9 @@ use crate::vehicle::{Control, Gust, State, Vehicle};
 impl Vehicle {
     /// Eq. (3): time derivatives of all states, in moving air.
     ///
-    /// Beyond eq. (3), which knows still air only: lift and drag are those of the speed and the
-    /// incidence relative to the air, across and along the stream (Etkin, Dynamics of Atmospheric
-    /// Flight, 1972, ch. 13). The gust is the same from nose to tail.
+    /// Eq. (3) assumes still air. In a gust, lift and drag follow from airspeed and incidence and act
+    /// normal to and along the relative wind (Etkin, Dynamics of Atmospheric Flight, 1972, ch. 13). The
+    /// gust is uniform along the vehicle.
     pub fn derivatives<S: Scalar>(&self, x: &State<S>, u: &Control<S>, gust: Gust<S>) -> State<S> {
         match &self.fuel_table {
             None => self.rates(&self.airframe, &self.airflow(&self.airframe, x, u, gust), x),
@@ -19,7 +19,7 @@ impl Vehicle {
         }
     }
 
-    /// [`Vehicle::derivatives`], and everything that is shown beside the states.
+    /// [`Vehicle::derivatives`] and the outputs.
     pub fn derivatives_and_outputs<S: Scalar>(
         &self,
         x: &State<S>,
@@ -42,7 +42,7 @@ impl Vehicle {
         (rates, self.outputs_from(&self.airframe, &airflow, x, u, &rates))
     }
 
-    /// Everything that is shown beside the states, whose rates are known.
+    /// Outputs, given the time derivatives of the states.
     pub fn outputs<S: Scalar>(
         &self,
         x: &State<S>,

@@ -1,4 +1,4 @@
-//! Where the model holds, where it has numbers at all, and what its actuators can do.
+//! Range of validity of the model, domain of its equations, limits of its actuators.
 
 use super::relative_wind::RelativeWind;
 use crate::air::tightest;
@@ -8,36 +8,35 @@ use crate::vehicle::{
     Airframe, Control, FUEL, Gust, H, MAX_GUST_M_PER_S, STATES, State, V, Vehicle,
 };
 
-/// Size up to which a state, in its unit, leaves every term of the equations finite: a power of two.
-const FAR: f64 = (1_u64 << 33) as f64;
-/// Slowest speed, m/s, for which the equations have numbers: faster than any gust, so that the air
-/// comes from ahead.
-const SLOWEST: f64 = 500.0;
-/// Lowest altitude likewise, m: above the earth's centre.
-const LOWEST: f64 = -1e6;
+/// Largest magnitude of a state, in its unit, for which every term of the equations is finite: a power of
+/// two.
+const MAX_STATE: f64 = (1_u64 << 33) as f64;
+/// Lowest speed in the domain of the equations, m/s: above any gust, so that the air comes from ahead.
+const MIN_SPEED_M_PER_S: f64 = 500.0;
+/// Lowest altitude in the domain of the equations, m: above the earth's centre.
+const MIN_ALTITUDE_M: f64 = -1e6;
 
-/// Whether a trial state of our own integrator is so small that nothing overflows. Of one that is too
-/// large, over `FAR` and by two, the exponent has its highest bit.
+/// Whether all components are below `MAX_STATE`, so that nothing overflows. The test is one bit: the
+/// highest bit of the exponent of 2 x / `MAX_STATE` is set for a magnitude of 2 and above.
 #[inline(always)]
 pub fn is_finite(x: &State) -> bool {
-    const HIGHEST: u64 = 1 << 62;
-    let bits = x.iter().fold(0, |bits, value| bits | (value * (2.0 / FAR)).to_bits());
-    bits & HIGHEST == 0
+    const HIGHEST_EXPONENT_BIT: u64 = 1 << 62;
+    let bits = x.iter().fold(0, |bits, value| bits | (value * (2.0 / MAX_STATE)).to_bits());
+    bits & HIGHEST_EXPONENT_BIT == 0
 }
 
-/// The first state for which the equations have no numbers. An integrator from outside may look far
-/// beyond the region in which they hold.
+/// The first state outside the domain of the equations, which an external integrator may reach.
 pub fn out_of_domain(x: &State) -> Option<LimitedQuantity> {
     let least = |i: usize| match i {
-        V => SLOWEST,
-        H => LOWEST,
-        _ => -FAR,
+        V => MIN_SPEED_M_PER_S,
+        H => MIN_ALTITUDE_M,
+        _ => -MAX_STATE,
     };
     (0..STATES)
         .map(|i| LimitedQuantity {
             kind: LimitedKind::State(i),
             value: x[i],
-            limits: [least(i), FAR],
+            limits: [least(i), MAX_STATE],
         })
         .find(|limited| limited.margin() < 0.0)
 }
@@ -49,23 +48,23 @@ impl Vehicle {
         [[-delta_e, delta_e], [0.0, phi]]
     }
 
-    /// Controls cut to what the actuators can do.
+    /// Controls limited to the range of the actuators.
     pub fn saturate(&self, [delta_e, phi]: Control) -> Control {
         let [[least, largest], [lean, rich]] = self.control_ranges();
         [delta_e.clamp(least, largest), phi.clamp(lean, rich)]
     }
 
-    /// A gust cut to the fastest.
+    /// A gust limited to [`MAX_GUST_M_PER_S`].
     pub fn limit_gust(wanted: Gust) -> Gust {
         wanted.map(|speed| speed.clamp(-MAX_GUST_M_PER_S, MAX_GUST_M_PER_S))
     }
 
-    /// Whether fuel burns and none is left; a mass that is not a number counts as none.
+    /// Whether fuel burns and the tanks are empty, also for NaN.
     pub fn out_of_fuel(&self, x: &State) -> bool {
         self.fuel_table.is_some() && (x[FUEL] < 0.0 || x[FUEL].is_nan())
     }
 
-    /// Altitude, speed through the air and incidence to it.
+    /// Altitude, airspeed and incidence.
     fn flight_condition(x: &State, gust: Gust) -> [f64; 3] {
         let RelativeWind { speed, incidence, .. } = RelativeWind::new(x, gust);
         [x[H], speed, incidence]
@@ -79,7 +78,7 @@ impl Vehicle {
         }
     }
 
-    /// How far the liquid in each tank is from where it would leave its depth.
+    /// Displacement of the liquid in each tank, limited by its depth.
     fn sloshing(&self, x: &State) -> [LimitedQuantity; SLOSH] {
         self.at_level(x, |airframe| {
             let moved = airframe.sloshing(x);
@@ -91,7 +90,7 @@ impl Vehicle {
         })
     }
 
-    /// How far the burner is from thermal choking, if the fits end there.
+    /// Margin of the burner to thermal choking, if the fits are limited by it.
     fn choking(&self, x: &State, u: &Control, gust: Gust) -> Option<LimitedQuantity> {
         let least = self.aero.envelope.choking_margin?;
         let value = self.at_level(x, |airframe| {
@@ -105,8 +104,8 @@ impl Vehicle {
         })
     }
 
-    /// Whether the model holds at a state: within the ranges of the curve fits, with the liquid inside
-    /// its depth, and with fuel if it burns.
+    /// Whether the model is valid: curve fits within their ranges, liquid within its depth, fuel left if
+    /// it burns.
     pub fn holds(&self, x: &State, u: &Control, gust: Gust) -> bool {
         let condition = Self::flight_condition(x, gust);
         self.aero.envelope.holds(&self.atmosphere, condition)
@@ -116,7 +115,7 @@ impl Vehicle {
             && self.choking(x, u, gust).is_none_or(|limited| limited.margin() >= 0.0)
     }
 
-    /// All quantities that have limits.
+    /// All limited quantities.
     pub fn limited_quantities(
         &self,
         x: &State,
@@ -129,7 +128,7 @@ impl Vehicle {
         self.aero.envelope.limited_quantities(&self.atmosphere, condition).into_iter().chain(others)
     }
 
-    /// The quantity that is outside its limits or, inside all, next to them.
+    /// The limited quantity with the smallest margin.
     pub fn tightest(&self, x: &State, u: &Control, gust: Gust) -> LimitedQuantity {
         tightest(self.limited_quantities(x, u, gust))
     }

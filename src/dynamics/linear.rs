@@ -15,7 +15,7 @@ pub struct LinearModel {
     pub c: DMatrix<f64>,
 }
 
-/// Rows of the state that are V and gamma.
+/// States among the outputs y: V and gamma.
 pub const OUTPUT_STATES: [usize; 2] = [V, GAMMA];
 
 /// A direction from a point, as dual numbers.
@@ -25,8 +25,8 @@ fn dual<const N: usize>([value, direction]: [&[f64; N]; 2]) -> [Dual<1>; N] {
 
 const STILL_AIR: Gust<Dual<1>> = [Dual { re: 0.0, eps: [0.0] }; GUSTS];
 
-/// Time derivatives in still air and how they change along a direction, of [value, direction]; exact by
-/// dual numbers. One direction at a time: many at once are quicker, but double the library.
+/// Time derivatives in still air and their directional derivative, from [value, direction]; exact by dual
+/// numbers. One direction at a time: several at once would be faster but double the size of the library.
 pub fn directional_derivative(
     vehicle: &Vehicle,
     x: [&State; 2],
@@ -45,8 +45,8 @@ impl LinearModel {
         linear
     }
 
-    /// With the outputs V and gamma at the inertial measurement unit. Neither answers the controls at
-    /// once, so D is zero.
+    /// With the outputs V and gamma at the inertial measurement unit. Neither has a direct feedthrough of
+    /// the controls, so D = 0.
     pub fn with_imu_gamma(vehicle: &Vehicle, state: &State, control: &Control) -> Self {
         let n = vehicle.states();
         let changes = |direction: usize| {
@@ -77,19 +77,23 @@ impl LinearModel {
         eigenvalues(self.a.clone())
     }
 
-    /// Transmission zeros from u to y, rad/s, by frequency: n - 2 of them, or none if the controls do
-    /// not reach the rates of both outputs.
+    /// Transmission zeros from u to y, rad/s, by frequency: n - 2, or none if C B is singular.
     pub fn zeros(&self) -> Vec<Complex<f64>> {
         self.zero_dynamics().map_or_else(Vec::new, eigenvalues)
     }
 
-    /// Motion of the states while both outputs are held, in all states but V and gamma; none if the
-    /// controls do not reach the rates of both outputs, or the outputs do not tell V and gamma. Its
-    /// eigenvalues are the zeros, its eigenvectors their directions.
+    /// Matrix of the zero dynamics in all states but V and gamma; none if C B is singular or y does not
+    /// determine V and gamma. Its eigenvalues are the transmission zeros, its eigenvectors their
+    /// directions.
     ///
-    /// The rates of the outputs answer the controls at once (C B is invertible), so holding y at zero
-    /// fixes u = -(C B)^-1 C A x. With y = 0 the states V and gamma follow from the others, z:
-    /// x = N z with C N = 0 (Isidori, Nonlinear Control Systems, 3rd ed., 4.3).
+    /// With relative degree 1, y = 0 requires u = -(C B)^-1 C A x, and V and gamma follow from the other
+    /// states z:
+    ///
+    /// ```text
+    /// x = N z, C N = 0     z' = [A N - B (C B)^-1 C A N]_z
+    /// ```
+    ///
+    /// (Isidori, Nonlinear Control Systems, 3rd ed., section 4.3).
     pub fn zero_dynamics(&self) -> Option<DMatrix<f64>> {
         let hidden: Vec<usize> =
             (0..self.a.nrows()).filter(|row| !OUTPUT_STATES.contains(row)).collect();

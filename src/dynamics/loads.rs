@@ -1,4 +1,4 @@
-//! Eq. (4): what the air makes of a state.
+//! Aerodynamic loads: eq. (4).
 
 use super::coefficients::{Coefficients, coefficients};
 use super::relative_wind::RelativeWind;
@@ -18,14 +18,14 @@ pub struct Loads<S> {
     pub drag: S,
     /// Thrust, N/m.
     pub thrust: S,
-    /// Pitching moment about the mass centre, nose up, with the thrust's share, N.
+    /// Pitching moment about the mass centre, nose up, including thrust, N.
     pub moment: S,
     /// Aerodynamic force normal to the body axis, N/m.
     pub normal: S,
 }
 
 impl<S: Copy> Loads<S> {
-    /// Each quantity by itself.
+    /// Applies `f` to each quantity.
     pub(super) fn map<T>(self, f: impl Fn(S) -> T) -> Loads<T> {
         Loads {
             qbar: f(self.qbar),
@@ -39,19 +39,19 @@ impl<S: Copy> Loads<S> {
     }
 }
 
-/// What the air makes of a state.
+/// Relative wind, coefficients and loads at a state.
 pub(super) struct Airflow<S> {
     pub wind: RelativeWind<S>,
-    /// One over the speed through the air, s/m.
+    /// 1/airspeed, s/m.
     pub per_speed: S,
-    /// Dynamic pressure by the reference area, N/m.
+    /// Dynamic pressure times reference area, N/m.
     pub force: S,
     pub coefficients: Coefficients<S>,
     pub loads: Loads<S>,
 }
 
 impl Vehicle {
-    /// Eq. (4), in still air.
+    /// Eq. (4) in still air.
     pub fn loads<S: Scalar>(&self, x: &State<S>, u: &Control<S>) -> Loads<S> {
         let still = [S::constant(0.0); GUSTS];
         match &self.fuel_table {
@@ -60,7 +60,7 @@ impl Vehicle {
         }
     }
 
-    /// What the air makes of a state, with the loads of eq. (4).
+    /// Eq. (4) in moving air.
     #[inline(always)]
     pub(super) fn airflow<C: Scalar, S: Scalar + Over<C>>(
         &self,
@@ -70,7 +70,7 @@ impl Vehicle {
         gust: Gust<S>,
     ) -> Airflow<S> {
         let wind = RelativeWind::new(x, gust);
-        let (speed, alpha, (sin, cos)) = (wind.speed, wind.incidence, wind.axis);
+        let (speed, alpha, (sin, cos)) = (wind.speed, wind.incidence, wind.incidence_sin_cos);
         let air = self.atmosphere.air(x[H]);
         let qbar = air.density * speed * speed * 0.5;
         let force = qbar * self.aero.area;

@@ -2,17 +2,17 @@
 //!
 //! The functions are pure and generic over the number type, so dual numbers give exact
 //! derivatives. The generalised slosh force Q_i of eq. (3) does not appear: the sloshing masses
-//! are unknowns of the eigenproblem, so their force is inside the modes already.
+//! are unknowns of the eigenproblem, so the modes contain their force.
 //!
 //! | file | what it holds | where it comes from |
 //! |---|---|---|
-//! | `airflow` | the vehicle as moving air meets it | |
-//! | `coefficients`, `loads` | what the air makes of a state | eq. (4) |
-//! | `modal`, `rates` | modes and rigid body at one fuel level | eq. (3) |
-//! | `burning` | while fuel burns | |
-//! | `sensors`, `outputs` | what is shown beside the states | |
+//! | `relative_wind` | velocity relative to the air | |
+//! | `coefficients`, `loads` | aerodynamic loads | eq. (4) |
+//! | `modal`, `rates` | equations of modes and rigid body at constant fuel | eq. (3) |
+//! | `burning` | additional terms while fuel burns | |
+//! | `sensors`, `outputs` | outputs | |
 //! | `equations` | f and g | eq. (3) |
-//! | `limits` | where the model holds | |
+//! | `limits` | range of validity, domain, actuator limits | |
 //! | [`trim`], [`linear`] | trim; A, B, C, poles, zeros | Tables 2-3 |
 
 mod burning;

@@ -1,4 +1,4 @@
-//! What a flight shows beside its states.
+//! Outputs.
 
 use super::loads::{Airflow, Loads};
 use super::sensors::{self, Imu};
@@ -6,7 +6,7 @@ use crate::solve::{Over, Scalar};
 use crate::structure::SLOSH;
 use crate::vehicle::{ALPHA, Airframe, Control, GAMMA, SensorStations, State, Vehicle};
 
-/// What a flight shows beside its states.
+/// Outputs beyond the states.
 #[derive(Debug, Clone, Copy)]
 pub struct Outputs<S = f64> {
     /// Forces and flight condition.
@@ -17,16 +17,16 @@ pub struct Outputs<S = f64> {
     pub slosh: [S; SLOSH],
     /// Normal load factor at the mass centre, g.
     pub n_z: S,
-    /// What the inertial measurement unit shows.
+    /// Readings of the inertial measurement unit.
     pub imu: Imu<S>,
-    /// Incidence that the vane shows, rad.
+    /// Incidence indicated by the vane, rad.
     pub alpha_probe: S,
-    /// Fuel ratio that can still be added before the burner chokes.
+    /// Equivalence ratio that can be added before the burner chokes.
     pub choking_margin: S,
 }
 
 impl<S: Copy> Outputs<S> {
-    /// Each quantity by itself, for example the derivative out of a dual number.
+    /// Applies `f` to each quantity, for example to extract the derivative of a dual number.
     pub fn map<T>(self, f: impl Fn(S) -> T) -> Outputs<T> {
         Outputs {
             loads: self.loads.map(&f),
@@ -47,7 +47,7 @@ impl<S: Copy> Outputs<S> {
 }
 
 impl Vehicle {
-    /// The outputs in known air, at one fuel level; `rates` are those that an accelerometer feels.
+    /// Outputs at one fuel level; `rates` are those sensed by an accelerometer.
     pub(super) fn outputs_from<C: Scalar, S: Scalar + Over<C>>(
         &self,
         airframe: &Airframe<C>,

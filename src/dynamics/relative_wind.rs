@@ -1,31 +1,38 @@
-//! Air in motion.
+//! Velocity relative to the moving air.
 
 use crate::solve::Scalar;
 use crate::vehicle::{ALPHA, GAMMA, Gust, State, V};
 
-/// The vehicle as moving air meets it.
+/// Velocity of the vehicle relative to the air, and its direction.
 pub struct RelativeWind<S> {
-    /// Speed through the air, m/s.
+    /// Airspeed, m/s.
     pub speed: S,
-    /// Incidence to it, rad.
+    /// Incidence of the body to the relative wind, rad.
     pub incidence: S,
-    /// Sine and cosine of the angle of attack, of the body against the flight path.
-    pub body: (S, S),
-    /// Sine and cosine of the incidence, of the body against the stream.
-    pub axis: (S, S),
-    /// Sine and cosine of the angle by which the stream comes from below the flight path.
-    pub turn: (S, S),
+    /// Sine and cosine of the angle of attack alpha, against the flight path.
+    pub alpha_sin_cos: (S, S),
+    /// Sine and cosine of the incidence.
+    pub incidence_sin_cos: (S, S),
+    /// Sine and cosine of the angle from flight path to relative wind, positive from below: incidence -
+    /// alpha.
+    pub gust_angle_sin_cos: (S, S),
 }
 
 impl<S: Scalar> RelativeWind<S> {
-    /// What moving air makes of the state.
+    /// From state and gust.
     #[inline]
     pub fn new(x: &State<S>, gust: Gust<S>) -> Self {
         let (zero, one) = (S::constant(0.0), S::constant(1.0));
-        let body = x[ALPHA].sin_cos();
+        let alpha_sin_cos = x[ALPHA].sin_cos();
         let [up, forward] = gust;
         if up.is_zero() && forward.is_zero() {
-            return Self { speed: x[V], incidence: x[ALPHA], body, axis: body, turn: (zero, one) };
+            return Self {
+                speed: x[V],
+                incidence: x[ALPHA],
+                alpha_sin_cos,
+                incidence_sin_cos: alpha_sin_cos,
+                gust_angle_sin_cos: (zero, one),
+            };
         }
         let (sin_gamma, cos_gamma) = x[GAMMA].sin_cos();
         let along = x[V] - up * sin_gamma - forward * cos_gamma;
@@ -33,7 +40,9 @@ impl<S: Scalar> RelativeWind<S> {
         let speed = (along * along + across * across).sqrt();
         let incidence = x[ALPHA] + (across / along).atan();
         let (sin, cos) = (across / speed, along / speed);
-        let axis = (body.0 * cos + body.1 * sin, body.1 * cos - body.0 * sin);
-        Self { speed, incidence, body, axis, turn: (sin, cos) }
+        let (sin_alpha, cos_alpha) = alpha_sin_cos;
+        let incidence_sin_cos =
+            (sin_alpha * cos + cos_alpha * sin, cos_alpha * cos - sin_alpha * sin);
+        Self { speed, incidence, alpha_sin_cos, incidence_sin_cos, gust_angle_sin_cos: (sin, cos) }
     }
 }

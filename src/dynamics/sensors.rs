@@ -1,8 +1,15 @@
-//! What sensors on the bent body see.
+//! Sensors on the deformed body.
 //!
-//! The mean axes of eq. (3) move with the mass centre; a sensor moves with a point of the body: by the
-//! pitch rate at its distance from the mass centre, and by deflection and slope of the modes. Relative
-//! motion in rotating axes: Etkin, Dynamics of Atmospheric Flight, 1972, section 5.1.
+//! Relative to the mean axes of eq. (3), a sensor at the distance xi ahead of the mass centre has the
+//! deflection w and the slope sigma (nose-down positive) of the modes. In body axes, forward and up,
+//!
+//! ```text
+//! velocity      (V cos alpha - q w,  -V sin alpha + q xi + w')
+//! acceleration  a_cg + (-q^2 xi - q' w - 2 q w',  q' xi - q^2 w + w'')
+//! ```
+//!
+//! (motion relative to rotating axes: Etkin, Dynamics of Atmospheric Flight, 1972, section 5.1); the
+//! sensor's axes are rotated nose-down by sigma.
 
 use super::loads::Airflow;
 use crate::air::curve_fits::PerMode;
@@ -10,7 +17,7 @@ use crate::solve::{Over, Scalar};
 use crate::structure::MODES;
 use crate::vehicle::{ALPHA, Airframe, GAMMA, Q, State, V, eta, eta_dot};
 
-/// Motion of a point of the body against the mean axes, up positive.
+/// Motion of a point of the body relative to the mean axes, up positive.
 struct PointMotion<S> {
     /// Deflection, m, and its rates.
     w: S,
@@ -21,18 +28,18 @@ struct PointMotion<S> {
     slope_dot: S,
 }
 
-/// What an inertial measurement unit shows.
+/// Readings of an inertial measurement unit.
 #[derive(Debug, Clone, Copy)]
 pub struct Imu<S = f64> {
     /// Pitch attitude, rad.
     pub theta: S,
     /// Pitch rate, rad/s.
     pub q: S,
-    /// Flight-path angle of its place, rad.
+    /// Flight-path angle of its location, rad.
     pub gamma: S,
-    /// Load factor across the bent axis, up positive, g.
+    /// Load factor normal to the deformed axis, up positive, g.
     pub n_z: S,
-    /// Load factor along the bent axis, forward positive, g.
+    /// Load factor along the deformed axis, forward positive, g.
     pub n_x: S,
 }
 
@@ -54,7 +61,7 @@ fn motion<C: Copy, S: Scalar + Over<C>>(
     }
 }
 
-/// What an IMU at `station`, m from the nose, shows; one g is `standard`, m/s^2.
+/// Readings of an IMU at `station`, m from the nose; one g is `standard`, m/s^2.
 pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
     airframe: &Airframe<C>,
     airflow: &Airflow<S>,
@@ -64,21 +71,21 @@ pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
     standard: f64,
 ) -> Imu<S> {
     let point = motion(&airframe.imu, x, rates);
-    let forward = S::of(airframe.mass_centre - station);
+    let xi = S::of(airframe.mass_centre - station);
     let (q, theta) = (x[Q], x[GAMMA] + x[ALPHA]);
-    let (sin_alpha, cos_alpha) = airflow.wind.body;
+    let (sin_alpha, cos_alpha) = airflow.wind.alpha_sin_cos;
     let ahead = x[V] * cos_alpha - q * point.w;
-    let up = q * forward + point.w_dot - x[V] * sin_alpha;
+    let up = q * xi + point.w_dot - x[V] * sin_alpha;
 
     let per_weight = C::constant(1.0) / (airframe.mass * standard);
-    let (sin, cos) = airflow.wind.axis;
+    let (sin, cos) = airflow.wind.incidence_sin_cos;
     let axial = airflow.loads.drag * cos - airflow.loads.lift * sin;
     let along = (airflow.loads.thrust - axial) * per_weight;
     let across = airflow.loads.normal * per_weight;
     let in_g = 1.0 / standard;
     let q_dot = rates[Q];
-    let along = along - (q * q * forward + q_dot * point.w + q * point.w_dot * 2.0) * in_g;
-    let across = across + (q_dot * forward - q * q * point.w + point.w_dot_dot) * in_g;
+    let along = along - (q * q * xi + q_dot * point.w + q * point.w_dot * 2.0) * in_g;
+    let across = across + (q_dot * xi - q * q * point.w + point.w_dot_dot) * in_g;
     let (sin, cos) = point.slope.sin_cos();
     Imu {
         theta: theta - point.slope,
@@ -89,7 +96,7 @@ pub(super) fn imu<C: Scalar, S: Scalar + Over<C>>(
     }
 }
 
-/// Incidence that a vane at `station`, m from the nose, shows, rad.
+/// Incidence indicated by a vane at `station`, m from the nose, rad.
 pub(super) fn vane<C: Scalar, S: Scalar + Over<C>>(
     airframe: &Airframe<C>,
     airflow: &Airflow<S>,
@@ -98,9 +105,9 @@ pub(super) fn vane<C: Scalar, S: Scalar + Over<C>>(
     station: f64,
 ) -> S {
     let point = motion(&airframe.probe, x, rates);
-    let forward = S::of(airframe.mass_centre - station);
-    let (sin, cos) = airflow.wind.axis;
+    let xi = S::of(airframe.mass_centre - station);
+    let (sin, cos) = airflow.wind.incidence_sin_cos;
     let ahead = airflow.wind.speed * cos - x[Q] * point.w;
-    let down = airflow.wind.speed * sin - x[Q] * forward - point.w_dot;
+    let down = airflow.wind.speed * sin - x[Q] * xi - point.w_dot;
     (down / ahead).atan() - point.slope
 }

@@ -1,4 +1,4 @@
-//! Trim: the controls and static deflections of steady flight.
+//! Trim: controls and static deflections of steady flight, by Newton's method with exact derivatives.
 
 use super::linear::directional_derivative;
 use crate::error::{Error, LimitedKind, LimitedQuantity};
@@ -22,20 +22,18 @@ pub struct Trim {
 const UNKNOWNS: usize = FIRST_ETA + MODES;
 /// Index of the first modal coordinate among the unknowns.
 const FIRST_ETA: usize = 3;
-/// Newton converges in about five steps; the rest guards against cycling at rounding level.
+/// Limit of Newton's iteration; about five steps are usual.
 const MAX_STEPS: usize = 40;
-/// Scaled residual (accelerations over those of free fall) that counts as steady. Rounding leaves
-/// about 1e-15.
-const STEADY: f64 = 1e-11;
-/// Size of an unknown, rad or m, at which Newton's method has lost its way.
-const LOST: f64 = 1e6;
-/// Rows of the state derivative that must vanish, with their size in a free fall (m/s^2, rad/s,
-/// rad/s^2): V, gamma, q.
+/// Largest scaled residual (accelerations relative to free fall) of a trim. Rounding leaves about 1e-15.
+const CONVERGED: f64 = 1e-11;
+/// Magnitude of an unknown, rad or m, at which Newton's iteration has diverged.
+const DIVERGED: f64 = 1e6;
+/// State derivatives that must vanish, with their scale in free fall (m/s^2, rad/s, rad/s^2).
 const BALANCES: [(usize, f64); 3] = [(V, 10.0), (GAMMA, 0.004), (Q, 1.0)];
 
 type Vector = SVector<f64, UNKNOWNS>;
 
-/// A state and its controls, from the unknowns and from what is known of the state.
+/// State and controls from the unknowns and the known components of the state.
 fn insert(known: &State, z: &Vector) -> (State, Control) {
     let mut x = *known;
     let [alpha, delta_e, phi, ..] = z.data.0[0];
@@ -71,7 +69,7 @@ fn residual(
     (value, jacobian)
 }
 
-/// Steady flight at a condition, by Newton's method with exact derivatives.
+/// Steady flight at a condition.
 ///
 /// # Errors
 /// [`Error::Trim`] with the residual and the limit that was hit, when no control within the limits
@@ -89,8 +87,8 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
             return Err(Error::NotFinite { mach, altitude_m });
         }
         let size = value.amax();
-        // At rounding level the residual stops falling: that is as steady as numbers can say.
-        if !size.is_finite() || (best < STEADY && size >= best) {
+        // Converged to rounding once the residual stops falling.
+        if !size.is_finite() || (best < CONVERGED && size >= best) {
             break;
         }
         if size < best {
@@ -99,7 +97,7 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         }
         let Some(step) = jacobian.lu().solve(&value) else { break };
         z -= step;
-        if z.amax() >= LOST {
+        if z.amax() >= DIVERGED {
             break;
         }
     }
@@ -117,14 +115,14 @@ pub fn trim(vehicle: &Vehicle, condition: &Condition) -> Result<Trim, Error> {
         (LimitedKind::Elevator, [-elevator, elevator]),
         (LimitedKind::FuelRatio, [0.0, fuel]),
     ];
-    let steady = best < STEADY;
+    let steady = best < CONVERGED;
     let mut possible = steady && limit.is_none();
     let mut limited = solution;
     for (i, (kind, limits)) in unknowns.into_iter().enumerate() {
         let Some(beyond) = outside(kind, solution[i], limits) else { continue };
         possible = false;
         limited[i] = solution[i].clamp(limits[0], limits[1]);
-        // Where the search did not end, its last point says nothing.
+        // The last point of a diverged iteration tells nothing.
         if steady {
             limit = limit.or(Some(beyond));
         }

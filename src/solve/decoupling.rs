@@ -12,13 +12,14 @@
 //! ```
 //!
 //! A pair of eigenvalues of J_ff with sum s and product p spans the null space of J_ff^2 - s J_ff + p. A
-//! vector v in it is found by inverse iteration on that matrix, with p (1 + 1e-10) to keep it regular. Then v
-//! and w = J_ff v / r, r = |J_ff v|_max, are two columns of S: J_ff v = r w and J_ff w = s w - (p/r) v, so the block
-//! is [0, -p/r; r, s]. Eigenvalues come from the QR algorithm (nalgebra), conjugate ones in pairs, real ones
-//! in pairs of neighbours.
+//! vector v in it is found by inverse iteration on that matrix, with p (1 + 1e-10) to keep it regular.
+//! Then v and w = J_ff v / r, r = |J_ff v|_max, are two columns of S: J_ff v = r w and J_ff w = s w -
+//! (p/r) v, so the block is [0, -p/r; r, s]. Eigenvalues come from the QR algorithm (nalgebra), conjugate
+//! ones in pairs, real ones in pairs of neighbours.
 //!
-//! The transformation is refused if |S|_max |S^-1|_max exceeds 1e4; then each pair of fast states is its own block
-//! of L, whose other entries are dropped. L affects efficiency only, as the method integrates what L leaves out.
+//! The transformation is refused if |S|_max |S^-1|_max exceeds 1e4; then each pair of fast states is its
+//! own block of L, whose other entries are dropped. L affects efficiency only, as the method integrates
+//! what L leaves out.
 //!
 //! Tests: `verif_the_coordinates_decouple_every_vehicle`,
 //! `verif_a_jacobian_that_cannot_be_decoupled_still_gives_a_method`.

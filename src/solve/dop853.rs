@@ -7,9 +7,10 @@
 //! err = err_5^2 / sqrt(err_5^2 + 0.01 err_3^2)
 //! ```
 //!
-//! Sources: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed., 1993: the
-//! method in section II.5, err in eq. (II.10.17), the digits in the program DOP853 of the appendix; here they
-//! are rounded to double precision. Tests: `verif_the_tableau_meets_the_order_conditions_of_quadrature`,
+//! Sources: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+//! 1993: the method in section II.5, err in eq. (II.10.17), the digits in the program DOP853 of the
+//! appendix; here they are rounded to double precision. Tests:
+//! `verif_the_tableau_meets_the_order_conditions_of_quadrature`,
 //! `verif_the_method_converges_with_order_eight`.
 
 use super::integrate::Tableau;

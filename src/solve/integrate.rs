@@ -5,8 +5,8 @@
 //! next step = h clamp(0.9 err^(-1/p), 0.2, 6)                             err falls as h^p
 //! ```
 //!
-//! (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., section II.4). What remains of an
-//! interval is divided into equal steps, so the last one ends exactly at its end.
+//! (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., section II.4). What
+//! remains of an interval is divided into equal steps, so the last one ends exactly at its end.
 
 /// The system that is integrated.
 pub trait System<const N: usize> {

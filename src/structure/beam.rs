@@ -228,7 +228,8 @@ impl Beam {
 
     /// The displacement under a self-equilibrated load, with `w_0 = theta_0 = 0`.
     ///
-    /// The last node's load is not read: equilibrium determines it. Both slices hold [`Beam::unknowns`] entries.
+    /// The last node's load is not read: equilibrium determines it. Both slices hold [`Beam::unknowns`]
+    /// entries.
     pub fn deflect(&self, load: &[f64], displacement: &mut [f64]) {
         let l = self.element_m;
         let [mut shear, mut bending, mut slope, mut w] = [0.0; 4];

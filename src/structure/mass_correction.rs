@@ -1,24 +1,24 @@
 //! A rank-two correction of the beam's mass matrix that sets mass centre and pitch inertia.
 //!
-//! Pitch, bending and slosh share one kinetic energy, so the mass matrix M of the modes must have the mass centre and
-//! the pitch inertia of the equations of motion. The beam's density gives M_b, with mass m_b, mass centre x_b and
-//! inertia I_b about it. With the fields 1 (heave) and b = x - x_b (rotation),
+//! Pitch, bending and slosh share one kinetic energy, so the mass matrix M of the modes must have the
+//! mass centre and the pitch inertia of the equations of motion. The beam's density gives M_b, with mass
+//! m_b, mass centre x_b and inertia I_b about it. With the fields 1 (heave) and b = x - x_b (rotation),
 //!
 //! ```text
 //! h = M_b 1 / m_b,   r = M_b b / I_b                 h^T 1 = r^T b = 1,   h^T b = r^T 1 = 0
 //! M = M_b + delta (h r^T + r h^T) + j r r^T
 //! ```
 //!
-//! h^T u and r^T u are the mean translation and rotation of a displacement u. Written as u = a 1 + c b + v with v
-//! M_b-orthogonal to both,
+//! h^T u and r^T u are the mean translation and rotation of a displacement u. Written as u = a 1 + c b +
+//! v with v M_b-orthogonal to both,
 //!
 //! ```text
 //! u^T M u = m_b a^2 + 2 delta a c + (I_b + j) c^2 + v^T M_b v
 //! ```
 //!
-//! so M has the mass m_b, the first moment delta about x_b and the inertia I_b + j, and differs from M_b in rigid-body
-//! motion only: a beam without sloshing masses keeps its modes. M is positive definite if and only if
-//! m_b (I_b + j) > delta^2. Only products with M are needed, at O(n); it is never inverted.
+//! so M has the mass m_b, the first moment delta about x_b and the inertia I_b + j, and differs from M_b
+//! in rigid-body motion only: a beam without sloshing masses keeps its modes. M is positive definite if
+//! and only if m_b (I_b + j) > delta^2. Only products with M are needed, at O(n); it is never inverted.
 
 /// Mean translation and rotation of the displacements of a beam.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -126,10 +126,10 @@ impl Modes {
 
     /// Modal damping matrix D of `eta'' + D eta' + K eta = N / mu`, 1/s.
     ///
-    /// For eigenmodes `D_ik = (1/mu_i) sum_j c_j s_ji s_jk + delta_ik 2 zeta_i omega_i e_i`, with the displacement
-    /// s_ji of sloshing mass j relative to its node and the beam's share e_i of the strain energy. The dampers of
-    /// the sloshing masses couple the modes. Slosh modes have the structural damping ratio of the first flexible
-    /// mode, as they bend the beam quasi-statically.
+    /// For eigenmodes `D_ik = (1/mu_i) sum_j c_j s_ji s_jk + delta_ik 2 zeta_i omega_i e_i`, with the
+    /// displacement s_ji of sloshing mass j relative to its node and the beam's share e_i of the strain
+    /// energy. The dampers of the sloshing masses couple the modes. Slosh modes have the structural
+    /// damping ratio of the first flexible mode, as they bend the beam quasi-statically.
     pub fn damping(
         &self,
         oscillators: &[Oscillator],

@@ -1,8 +1,8 @@
 //! Mass centre and pitch inertia of beam and sloshing masses, set by the [`MassCorrection`] of the beam.
 //!
-//! Beam and sloshing masses (points at their nodes) have the mass m, the mass centre x_own and the inertia I_own. To
-//! move the mass centre by D to x_c and make the inertia about x_c equal to I, equate the moments about x_b, with
-//! d = x_own - x_b:
+//! Beam and sloshing masses (points at their nodes) have the mass m, the mass centre x_own and the
+//! inertia I_own. To move the mass centre by D to x_c and make the inertia about x_c equal to I, equate
+//! the moments about x_b, with d = x_own - x_b:
 //!
 //! ```text
 //! first:   m d + delta       = m (d + D)        =>  delta = m D

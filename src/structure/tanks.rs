@@ -1,18 +1,18 @@
 //! Liquid in the two tanks: sloshing mass, its frequency, and the frozen rest. Fig. 4 of the paper.
 //!
-//! E. W. Graham and A. M. Rodriguez, "The characteristics of fuel motion which affect airplane
-//! dynamics", J. Applied Mechanics 19(3), 1952, 381-388: liquid of depth `h` in a rectangular tank
-//! of length `b` along the motion is equivalent to a series of spring-mass systems and a frozen mass that moves
-//! with the walls. With r = h/b the first system, which is kept, has
+//! E. W. Graham and A. M. Rodriguez, "The characteristics of fuel motion which affect airplane dynamics",
+//! J. Applied Mechanics 19(3), 1952, 381-388: liquid of depth `h` in a rectangular tank of length `b`
+//! along the motion is equivalent to a series of spring-mass systems and a frozen mass that moves with
+//! the walls. With r = h/b the first system, which is kept, has
 //!
 //! ```text
 //! m_1 / m = 8 tanh(pi r) / (pi^3 r),   omega_1^2 = g (pi/b) tanh(pi r),   k_1 = m_1 omega_1^2
 //! ```
 //!
-//! Neglected are the *second mode*, whose mass in a deep tank is 1/27 (3.7 %) of the first, less than the accuracy
-//! of the data (its liquid counts as frozen), and the *attachment height* `h (1/2 - tanh(pi r/2) / (pi r/2))` above
-//! the centre of the liquid, here at most two thirds of a metre: the mass is attached to the tank's node, as in
-//! fig. 4.
+//! Neglected are the *second mode*, whose mass in a deep tank is 1/27 (3.7 %) of the first, less than the
+//! accuracy of the data (its liquid counts as frozen), and the *attachment height* `h (1/2 - tanh(pi r/2)
+//! / (pi r/2))` above the centre of the liquid, here at most two thirds of a metre: the mass is attached
+//! to the tank's node, as in fig. 4.
 
 use crate::data::{TankData, VehicleData};
 use crate::error::Error;
@@ -59,8 +59,8 @@ pub fn fuel_kg_per_m(data: &VehicleData, fuel_fraction: f64) -> f64 {
     load * drainable * fuel_fraction
 }
 
-/// Lowest sloshing frequency that can be set, rad/s. With softer springs the static deflection of the truncated
-/// modes would be metres.
+/// Lowest sloshing frequency that can be set, rad/s. With softer springs the static deflection of the
+/// truncated modes would be metres.
 pub const MIN_FREQUENCY_RAD_PER_S: f64 = 0.1;
 
 /// Sloshing frequency and damping.
@@ -101,8 +101,8 @@ impl SloshingTank {
     /// Fore and aft tank, in this order.
     ///
     /// # Errors
-    /// [`Error::Value`] if the frequency is positive but below [`MIN_FREQUENCY_RAD_PER_S`], or if it is to follow from
-    /// the geometry and the effective gravity is not positive (orbital speed and above).
+    /// [`Error::Value`] if the frequency is positive but below [`MIN_FREQUENCY_RAD_PER_S`], or if it is
+    /// to follow from the geometry and the effective gravity is not positive (orbital speed and above).
     pub fn pair(
         data: &VehicleData,
         fuel_fraction: f64,

@@ -1,12 +1,12 @@
-//! What the fuel level decides of a vehicle.
+//! Properties of a vehicle at one fuel level.
 
 use super::state::{State, eta};
 use crate::air::curve_fits::{Elastic, ModalForces, PerMode};
 use crate::solve::{Over, Scalar};
 use crate::structure::{MODES, SLOSH};
 
-/// Mass, elastic terms and modes at one fuel level, per metre of width; in plain numbers, or in such
-/// as carry derivatives by the fuel.
+/// Mass, elastic terms and modes at one fuel level, per metre of width; as real numbers, or as dual
+/// numbers with derivatives with respect to fuel.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Airframe<C = f64> {
     /// Mass, kg/m.
@@ -17,32 +17,31 @@ pub struct Airframe<C = f64> {
     pub mass_centre: C,
     /// Elastic terms of the curve fits; modal forces already divided by the modal mass.
     pub elastic: Elastic<C>,
-    /// Modal stiffness matrix, 1/s^2: eta-dd + D eta-d + K eta = N. Diagonal, with the squares of
-    /// the frequencies, until fuel burns.
+    /// Modal stiffness matrix K, 1/s^2: eta-dd + D eta-d + K eta = N. Diagonal, with the squares of the
+    /// frequencies, unless fuel burns.
     pub stiffness: [PerMode<C>; MODES],
-    /// Modal damping matrix D, 1/s, in columns: how the rate of each mode slows all of them.
+    /// Modal damping matrix D, 1/s, by columns.
     pub damping: [PerMode<C>; MODES],
-    /// Modal acceleration by which the tanks' floors carry the liquid's weight, m/s^2: the springs
-    /// of the sloshing masses bear only what deviates from steady flight.
+    /// Modal acceleration due to the tank floors, which carry the weight of the liquid, m/s^2: the
+    /// springs of the sloshing masses are unloaded in steady flight.
     pub floor: PerMode<C>,
-    /// Sloshing displacement relative to the tank per modal coordinate.
+    /// Displacement of the sloshing masses relative to the tank, per modal coordinate.
     pub slosh: [PerMode<C>; SLOSH],
-    /// How the shapes turn with the fuel f, in the product of the mass matrix M:
-    /// `phi_i^T M (d phi_k / df) / mu_i`, m/kg.
+    /// Rate of change of the shapes with the fuel f: `phi_i^T M (d phi_k / df) / mu_i`, m/kg.
     pub turning: [PerMode<C>; MODES],
     /// Deflection and slope (1/m) of the modes at the IMU.
     pub imu: [PerMode<C>; 2],
     /// The same at the probe.
     pub probe: [PerMode<C>; 2],
-    /// Depth of the liquid in the fore and aft tank, m; 0 where nothing sloshes.
+    /// Depth of the liquid in the fore and aft tank, m; 0 without sloshing.
     pub depth: [C; SLOSH],
 }
 
-/// Numbers in an airframe.
+/// Number of coefficients of an airframe.
 pub const COEFFICIENTS: usize = size_of::<Airframe>() / size_of::<f64>();
 
 impl<C> Airframe<C> {
-    /// All numbers, in a fixed order.
+    /// All coefficients, in a fixed order.
     fn parts(&mut self) -> [&mut [C]; 18] {
         use std::slice::from_mut as one;
         let Self { mass, inertia, mass_centre, elastic, .. } = self;
@@ -83,7 +82,7 @@ impl<C: Copy> Airframe<C> {
 }
 
 impl<C: Copy + Default> Airframe<C> {
-    /// All numbers in a row.
+    /// All coefficients in a row.
     pub fn to_row(mut self) -> [C; COEFFICIENTS] {
         let mut row = [C::default(); COEFFICIENTS];
         let mut rest = &mut row[..];
@@ -95,7 +94,7 @@ impl<C: Copy + Default> Airframe<C> {
         row
     }
 
-    /// From what [`Airframe::to_row`] gives.
+    /// Inverse of [`Airframe::to_row`].
     #[inline]
     pub fn from_row(row: &[C; COEFFICIENTS]) -> Self {
         let mut airframe = Self::default();

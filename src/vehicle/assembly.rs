@@ -1,4 +1,4 @@
-//! From the data files and a build to beam, liquid and coefficient set.
+//! Beam, liquid and coefficient set from data files and options.
 
 use super::options::{Configuration, VehicleOptions};
 use super::state::{GAMMA, H, V};
@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::structure::tanks::{SloshSettings, SloshingTank};
 use crate::structure::{Beam, Oscillator};
 
-/// Least gravity, over gravity at rest, for which a vehicle is put together.
-const WEIGHTLESS: f64 = 1e-3;
+/// Lower limit of the effective gravity, relative to gravity.
+const MIN_GRAVITY: f64 = 1e-3;
 
 /// What a build asks of the data files: with its factors applied, and its coefficient set chosen. Boxed
 /// as [`Data`] is.
@@ -21,12 +21,12 @@ pub struct VehicleDefinition {
     pub earth: Box<EarthData>,
     /// Coefficient set.
     pub aero: Box<AeroData>,
-    /// Build.
+    /// Options.
     pub options: VehicleOptions,
 }
 
 impl VehicleDefinition {
-    /// From all data.
+    /// With the coefficient set of the options.
     pub fn new(data: &Data, options: &VehicleOptions) -> Self {
         Self::with_coefficients(data, options, data.aero(options.aero))
     }
@@ -42,20 +42,19 @@ impl VehicleDefinition {
         }
     }
 
-    /// The same with another load of fuel.
+    /// The same vehicle with another amount of fuel.
     pub fn at(&self, fuel_fraction: f64) -> Self {
         Self { options: VehicleOptions { fuel_fraction, ..self.options }, ..self.clone() }
     }
 
-    /// Gravity less the centrifugal part across the flight path, m/s^2: what the liquid feels in
-    /// steady flight.
+    /// Gravity less centrifugal acceleration, normal to the flight path, m/s^2.
     pub(crate) fn effective_gravity(&self) -> f64 {
         let atmosphere = Atmosphere::new(&self.earth);
         let start = self.options.condition.start(&atmosphere);
         let (gravity, distance) = atmosphere.gravity(start[H]);
         let felt = (gravity - start[V] * start[V] / distance) * libm::cos(start[GAMMA]);
-        // Near orbital speed nothing holds the liquid down. No curve fit reaches there; the trim says so.
-        felt.max(WEIGHTLESS * gravity)
+        // It vanishes at orbital speed, which is outside all curve fits; the trim reports that.
+        felt.max(MIN_GRAVITY * gravity)
     }
 
     pub(crate) fn tanks(&self, fuel_fraction: f64) -> Result<Option<[SloshingTank; 2]>, Error> {
@@ -70,7 +69,7 @@ impl VehicleDefinition {
         SloshingTank::pair(&self.vehicle, fuel_fraction, &settings).map(Some)
     }
 
-    /// Beam and sloshing masses with the moments of mass that their densities give them.
+    /// Beam and sloshing masses without the correction of mass centre and inertia.
     fn assembled(&self, fuel_fraction: f64) -> Result<(Beam, Vec<Oscillator>), Error> {
         let Some(tanks) = self.tanks(fuel_fraction)? else {
             return Ok((Beam::even(&self.vehicle, fuel_fraction), Vec::new()));
@@ -80,11 +79,9 @@ impl VehicleDefinition {
         Ok((beam, oscillators))
     }
 
-    /// The beam of a configuration with the sloshing masses on it. Together they have the mass centre
-    /// and the pitch inertia of the coefficient set.
-    ///
-    /// The set's inertia is that of the full vehicle; with less propellant it falls as that by the
-    /// densities does.
+    /// The beam of a configuration and its sloshing masses, with the mass centre and the pitch inertia of the
+    /// coefficient set. The set's inertia is that of the full vehicle; with less propellant it decreases in
+    /// proportion to the inertia computed from the densities.
     ///
     /// # Errors
     /// [`Error::NoSloshFrequency`], [`Error::SloshFrequency`], [`Error::Inertia`] if no
@@ -109,8 +106,8 @@ impl VehicleDefinition {
         Ok((beam.with_mass_properties(&oscillators, centre, inertia)?, oscillators))
     }
 
-    /// The same with the inertial measurement unit where Table 3 reads the flight-path angle: ahead of
-    /// the mass centre, which is that of the body, in m from the nose.
+    /// The same vehicle with the inertial measurement unit at the point whose flight-path angle Table 3
+    /// uses, relative to the mass centre (m from the nose).
     pub fn with_imu_of_table_3(mut self, mass_centre_m: f64) -> Self {
         let offset = match self.options.configuration {
             Configuration::Rigid => 0.0,
@@ -121,7 +118,7 @@ impl VehicleDefinition {
     }
 }
 
-/// [`VehicleDefinition::structure`] of a build.
+/// [`VehicleDefinition::structure`] from data and options.
 ///
 /// # Errors
 /// Those of [`VehicleDefinition::structure`].

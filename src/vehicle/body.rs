@@ -1,4 +1,4 @@
-//! Beam, liquid and modes of a vehicle at one fuel level, and what they make of its airframe.
+//! Beam, liquid and modes of a vehicle at one fuel level.
 
 use super::airframe::Airframe;
 use super::assembly::VehicleDefinition;
@@ -15,15 +15,15 @@ pub struct Body {
     pub beam: Beam,
     /// Sloshing masses.
     pub oscillators: Vec<Oscillator>,
-    /// Modes of both together.
+    /// Coupled modes.
     pub modes: Modes,
-    /// Mass, mass centre and pitch inertia of both together.
+    /// Mass, mass centre and pitch inertia of beam and sloshing masses.
     pub properties: MassProperties,
     strips: StripIntegrals,
 }
 
 impl Body {
-    /// Assembles the beam and solves for its modes.
+    /// Assembles the beam and computes its modes.
     ///
     /// # Errors
     /// Those of [`VehicleDefinition::structure`]; [`Error::Modes`] if the modes cannot be found.
@@ -38,7 +38,7 @@ impl Body {
         Ok(Self { beam, oscillators, modes, strips, properties })
     }
 
-    /// The same body, its modes in the basis nearest to those of another fuel level.
+    /// The same body with its modes in the basis nearest to those of another fuel level.
     ///
     /// # Errors
     /// Those of [`Modes::aligned_to`].
@@ -58,25 +58,25 @@ impl Body {
         self.modes.displacements(&self.oscillators)
     }
 
-    /// `phi_i^T M v_k / mu_i` of the modes phi and of any displacements v.
+    /// `phi_i^T M v_k / mu_i` for the modes phi and any displacements v.
     pub fn products(&self, displacements: &[Vec<f64>]) -> [[f64; MODES]; MODES] {
         self.modes.products(&self.beam, &self.oscillators, displacements)
     }
 
-    /// What the equations of flight need of it, with the coefficient set around it.
+    /// Coefficients of the equations of motion.
     ///
     /// # Errors
     /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
     pub fn airframe(&self, definition: &VehicleDefinition) -> Result<Airframe, Error> {
         let Self { beam, oscillators, modes, strips, properties } = self;
         let VehicleDefinition { aero, options, .. } = definition;
-        // A force m g up on each sloshing mass and down on its tank.
+        // The floor exerts m g up on each sloshing mass and down on its tank.
         let gravity = definition.effective_gravity();
         let damping = modes.damping(oscillators, &aero.inertia.structural_damping.value);
         let floor = std::array::from_fn(|i| {
             let weights = oscillators.iter().zip(&modes.slosh_displacement);
             let work: f64 = weights.map(|(o, relative)| o.mass * gravity * relative[i]).sum();
-            // Of a mode that does not exist both are zero.
+            // Both are zero for a mode that does not exist.
             work / modes.modal_mass[i].max(f64::MIN_POSITIVE)
         });
         let rate = options.factors.pitch_rate;

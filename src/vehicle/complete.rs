@@ -1,4 +1,4 @@
-//! From data and options to a vehicle that can fly.
+//! The complete vehicle.
 
 use super::airframe::Airframe;
 use super::assembly::VehicleDefinition;
@@ -14,7 +14,7 @@ use crate::structure::MODES;
 use crate::structure::tanks::fuel_kg_per_m;
 use std::sync::Arc;
 
-/// The vehicle in one configuration, ready to fly. Per metre of width.
+/// A vehicle in one configuration, per metre of width.
 #[derive(Debug, Clone)]
 pub struct Vehicle {
     /// Air and gravity.
@@ -27,31 +27,31 @@ pub struct Vehicle {
     pub fuel: f64,
     /// Frequencies at the start, rad/s.
     pub omega: [f64; MODES],
-    /// What the fuel level decides, at the start.
+    /// Properties at the initial fuel level.
     pub airframe: Airframe,
-    /// The same at every level below, if fuel burns.
+    /// Properties at lower fuel levels, if fuel burns.
     pub fuel_table: Option<Arc<FuelTable>>,
-    /// What the engine swallows.
+    /// Engine intake.
     pub intake: Intake,
-    /// When its burner chokes.
+    /// Thermal choking of the burner.
     pub choking: Choking,
-    /// Where the sensors sit.
+    /// Sensor stations.
     pub stations: SensorStations,
     /// Largest elevator deflection (rad) and fuel equivalence ratio.
     pub limits: Control,
 }
 
 impl Vehicle {
-    /// Puts a vehicle together.
+    /// From data and options.
     ///
     /// # Errors
     /// [`Error::SensorOffBody`]; those of [`Body::new`]; [`Error::ModesNotFollowed`] if the
-    /// modes cannot be followed while fuel burns.
+    /// modes cannot be aligned while fuel burns.
     pub fn new(data: &Data, options: &VehicleOptions) -> Result<Self, Error> {
         Self::from_definition(&VehicleDefinition::new(data, options))
     }
 
-    /// [`Vehicle::new`] with any coefficient set.
+    /// [`Vehicle::new`] from a definition, which may have any coefficient set.
     ///
     /// # Errors
     /// Those of [`Vehicle::new`].
@@ -59,7 +59,7 @@ impl Vehicle {
         Self::with_body(definition, &Body::new(definition)?)
     }
 
-    /// The same around a body that is known: that of [`Body::new`].
+    /// The same, with the result of [`Body::new`] already known.
     ///
     /// # Errors
     /// Those of [`Vehicle::new`].
@@ -70,7 +70,7 @@ impl Vehicle {
         Self::assembled(definition, body, fuel_table)
     }
 
-    // A frame of its own, beside that of the burning vehicle.
+    // Not inlined, to limit the size of the stack frame.
     #[inline(never)]
     fn assembled(
         definition: &VehicleDefinition,
@@ -93,7 +93,7 @@ impl Vehicle {
         })
     }
 
-    /// Number of states in motion at one fuel level: 5, 11 or 15.
+    /// Number of states in use at constant fuel: 5, 11 or 15.
     pub fn states(&self) -> usize {
         eta(self.modes)
     }

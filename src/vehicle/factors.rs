@@ -1,11 +1,11 @@
-//! What may be uncertain about a vehicle: factors on its numbers, applied before it is put together.
+//! Uncertainty: factors on the data of a vehicle.
 
 use crate::data::{AeroData, EarthData, PolynomialData, Quantity, VehicleData};
 
-/// Factors on what their fields name, and two numbers that are 0 for the vehicle of the data files.
+/// Factors on quantities of the data files, nominally 1, and two offsets, nominally 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factors {
-    /// Densities of the beam, and so mass and propellant; not the pitch inertia.
+    /// Densities of the beam, hence mass and propellant; not the pitch inertia.
     pub mass: f64,
     /// Pitch inertia.
     pub inertia: f64,
@@ -15,13 +15,13 @@ pub struct Factors {
     pub lift: f64,
     /// C_D without the elevator.
     pub drag: f64,
-    /// C_M that depends on the incidence.
+    /// C_M due to incidence.
     pub moment_alpha: f64,
-    /// All that the elevator does.
+    /// Lift, drag and moment of the elevator.
     pub elevator: f64,
     /// C_T.
     pub thrust: f64,
-    /// What the air answers to bending.
+    /// Aerodynamic response to bending.
     pub elastic: f64,
     /// Bending stiffness EI.
     pub stiffness: f64,
@@ -29,7 +29,7 @@ pub struct Factors {
     pub structural_damping: f64,
     /// Added to the mass centre's station, m.
     pub mass_centre_shift_m: f64,
-    /// Part of the strip theory's terms in the pitch rate that counts; eq. (4) has none.
+    /// Factor on the terms of strip theory in the pitch rate; eq. (4) has none.
     pub pitch_rate: f64,
 }
 
@@ -68,7 +68,7 @@ fn scale_elevator(factor: f64, fit: &mut PolynomialData) {
 }
 
 impl Factors {
-    /// The vehicle with these factors.
+    /// Vehicle data with these factors.
     pub fn vehicle(&self, data: &VehicleData) -> VehicleData {
         let mut data = data.clone();
         scale(self.mass, [&mut data.mass.fore_beam_kg_per_m2, &mut data.mass.aft_beam_kg_per_m2]);
@@ -76,15 +76,15 @@ impl Factors {
         data
     }
 
-    /// The air with these factors.
+    /// Air data with these factors.
     pub fn earth(&self, data: &EarthData) -> EarthData {
         let mut data = data.clone();
-        // At an unchanged temperature the density goes with the pressure.
+        // Density is proportional to pressure at constant temperature.
         scale(self.density, [&mut data.air.sea_level_pressure_pa]);
         data
     }
 
-    /// The coefficient set with these factors.
+    /// Coefficient set with these factors.
     pub fn aero(&self, data: &AeroData) -> AeroData {
         let mut data = data.clone();
         scale_body(self.lift, &mut data.lift);

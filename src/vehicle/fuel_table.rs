@@ -1,14 +1,14 @@
-//! The vehicle between the fuel levels at which its modes are solved, for fuel that burns in flight.
+//! The vehicle as a function of fuel, for fuel that burns in flight: cubic Hermite interpolation between
+//! fuel levels.
 //!
-//! Frequencies cross as the tanks empty, so eigenmodes cannot be followed one by one. The space that
-//! the kept modes span can: at every level its basis is the one nearest to the eigenmodes of the
-//! start ([`Modes::aligned_to`]). It depends on start and level alone, not on the levels in between, and
-//! everything in it is smooth. The stiffness is then a full matrix, whose eigenvalues are still the
-//! squares of the frequencies of the level.
+//! Frequencies cross as the tanks empty, so eigenmodes cannot be tracked one by one, but the space
+//! spanned by the kept modes can. At every level its basis is the one nearest to the eigenmodes at the
+//! start ([`Modes::aligned_to`]), so it depends on start and level only and is smooth. The stiffness
+//! becomes a full matrix; its eigenvalues are the squares of the frequencies of the level.
 //!
-//! Near empty tanks the liquid slows down with the root of what is left, so the levels are equally
-//! spaced in the root of the filling. Between them lie cubics with matching slopes; these come from
-//! five levels each, so the error falls with the fourth power of the spacing.
+//! Near empty tanks the sloshing frequency falls with the square root of the filling, so the levels are
+//! equally spaced in that root. Slopes at the levels are difference quotients of fourth order over five
+//! levels, so the interpolation error falls with the fourth power of the spacing.
 
 use super::airframe::{Airframe, COEFFICIENTS};
 use super::assembly::VehicleDefinition;
@@ -21,11 +21,11 @@ use crate::structure::MODES;
 use crate::structure::Modes;
 use crate::structure::tanks::fuel_kg_per_m;
 
-/// Levels at which the modes are solved.
+/// Number of fuel levels.
 const LEVELS: usize = 33;
-/// Levels of a difference quotient.
+/// Number of levels in a difference quotient.
 const STENCIL: usize = 5;
-/// Slope at each place of five equally spaced ones, of fourth order, times 12.
+/// Weights, times 12, of the first derivative at each of five equally spaced points, of fourth order.
 const SLOPES: [[f64; STENCIL]; STENCIL] = [
     [-25.0, 48.0, -36.0, 16.0, -3.0],
     [-3.0, -10.0, 18.0, -6.0, 1.0],
@@ -33,24 +33,24 @@ const SLOPES: [[f64; STENCIL]; STENCIL] = [
     [-1.0, 6.0, -18.0, 10.0, 3.0],
     [3.0, -16.0, 36.0, -48.0, 25.0],
 ];
-/// The levels reach down to this part of what cannot be drained, so that a trial step of an
-/// integrator finds a vehicle a little below empty tanks.
+/// Lowest level, as a fraction of the residual propellant: trial steps of an integrator go slightly below
+/// empty tanks.
 const BELOW_EMPTY: f64 = 0.5;
 
-/// One vehicle at all fuel levels from its start downwards.
+/// A vehicle at all fuel levels up to that of its start.
 #[derive(Debug, Clone)]
 pub struct FuelTable {
-    /// Filling at no fuel, and per fuel, m/kg.
+    /// Filling without fuel, and its slope with the fuel mass, m/kg.
     filling: [f64; 2],
-    /// Root of the filling at the start.
+    /// Square root of the filling at the start.
     start: f64,
-    /// Spacing of the roots.
+    /// Spacing of the levels in that root.
     spacing: f64,
-    /// Cubics between the levels: coefficients of the powers of the place in each piece, 0 to 1.
+    /// Cubics between the levels: coefficients of the powers of the local coordinate, 0 to 1.
     pieces: Vec<[[f64; COEFFICIENTS]; 4]>,
 }
 
-/// Slope at a level of what is known at all of them, per level.
+/// Derivative at a level of a function known at all levels, per level.
 fn slope(level: usize, at: impl Fn(usize) -> f64) -> f64 {
     let first = level.saturating_sub(STENCIL / 2).min(LEVELS - STENCIL);
     let weights = &SLOPES[level - first];
@@ -58,7 +58,7 @@ fn slope(level: usize, at: impl Fn(usize) -> f64) -> f64 {
 }
 
 impl FuelTable {
-    /// Solves a vehicle, whose body at the start is known, at all levels below.
+    /// Computes a vehicle, whose body at the start is known, at all levels.
     ///
     /// # Errors
     /// Those of [`Body::new`]; [`Error::ModesNotFollowed`] if the modes cannot be followed.
@@ -85,33 +85,33 @@ impl FuelTable {
             let root = start - spacing * level as f64;
             let levels_per_fuel = -filling[1] / (2.0 * root * spacing);
             let turning = body
-                .products(&turned(level, &shapes))
+                .products(&shape_derivative(level, &shapes))
                 .map(|row| row.map(|entry| entry * levels_per_fuel));
             push_row(&mut rows, body, &levels[level], turning)?;
         }
         Ok(Self { filling, start, spacing, pieces: pieces(&rows) })
     }
 
-    /// The vehicle at a fuel level, kg/m. Far beyond the levels of a flight it no longer changes.
+    /// Properties at a fuel mass, kg/m; constant beyond one level outside the table.
     pub fn airframe<S: Scalar>(&self, fuel: S) -> Airframe<S> {
-        let place = self.place(fuel);
-        let piece = (place.value() as usize).min(self.pieces.len() - 1);
+        let position = self.position(fuel);
+        let piece = (position.value() as usize).min(self.pieces.len() - 1);
         let [c0, c1, c2, c3] = &self.pieces[piece];
-        let t = place.value() - piece as f64;
+        let t = position.value() - piece as f64;
         let row: [S; COEFFICIENTS] = std::array::from_fn(|i| {
             let value = ((c3[i] * t + c2[i]) * t + c1[i]) * t + c0[i];
-            place.chain(value, (3.0 * c3[i] * t + 2.0 * c2[i]) * t + c1[i])
+            position.chain(value, (3.0 * c3[i] * t + 2.0 * c2[i]) * t + c1[i])
         });
         Airframe::from_row(&row)
     }
 
-    /// Place among the levels, from 0 at the start.
-    fn place<S: Scalar>(&self, fuel: S) -> S {
+    /// Continuous index of the level, 0 at the start.
+    fn position<S: Scalar>(&self, fuel: S) -> S {
         let [empty, per_fuel] = self.filling;
         let filling = fuel * per_fuel + empty;
         let [highest, lowest] =
             [-1.0, (LEVELS - 1) as f64].map(|level| self.start - self.spacing * level);
-        // Not a number counts as empty.
+        // NaN counts as empty.
         let root = if filling.value() >= highest * highest {
             S::constant(highest)
         } else if filling.value() > lowest * lowest {
@@ -123,7 +123,7 @@ impl FuelTable {
     }
 }
 
-/// Adds an airframe, in a frame of its own: its numbers are many.
+/// Appends an airframe. Not inlined, to limit the size of the stack frame.
 #[inline(never)]
 fn push_row(
     rows: &mut Vec<[f64; COEFFICIENTS]>,
@@ -136,8 +136,8 @@ fn push_row(
     Ok(())
 }
 
-/// How the shapes change per level, at a level.
-fn turned(level: usize, shapes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
+/// Derivative of the shapes per level, at a level.
+fn shape_derivative(level: usize, shapes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
     let modes = 0..shapes[level].len();
     modes
         .map(|mode| {
@@ -147,7 +147,7 @@ fn turned(level: usize, shapes: &[Vec<Vec<f64>>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Cubics between rows of values.
+/// Cubic Hermite pieces between rows.
 fn pieces(rows: &[[f64; COEFFICIENTS]]) -> Vec<[[f64; COEFFICIENTS]; 4]> {
     let slopes: Vec<[f64; COEFFICIENTS]> = (0..rows.len())
         .map(|level| std::array::from_fn(|i| slope(level, |at| rows[at][i])))

@@ -1,15 +1,15 @@
-//! From data and options to a vehicle that can fly: what it is made of, without its equations.
+//! A vehicle from data and options, without its equations of motion.
 //!
 //! | file | what it holds |
 //! |---|---|
-//! | `state` | states, controls and gusts of eq. (3) |
-//! | `options` | what shapes a vehicle |
-//! | `factors` | what may be uncertain about it |
-//! | `assembly` | data and options to beam, liquid and coefficient set |
-//! | `airframe` | what the fuel level decides |
+//! | `state` | components of states, controls and gusts |
+//! | `options` | configuration, fuel, condition, sensors |
+//! | `factors` | uncertainty factors |
+//! | `assembly` | beam, liquid and coefficient set from data and options |
+//! | `airframe` | properties at one fuel level |
 //! | `body` | beam, liquid and modes at one fuel level |
-//! | `fuel_table` | the vehicle while fuel burns |
-//! | `complete` | all of it together |
+//! | `fuel_table` | properties as functions of fuel |
+//! | `complete` | the complete vehicle |
 
 mod airframe;
 mod assembly;

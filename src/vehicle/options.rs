@@ -1,4 +1,4 @@
-//! What shapes a vehicle.
+//! Options of a vehicle.
 
 use super::factors::Factors;
 use super::state::{GAMMA, H, STATES, State, V};
@@ -6,7 +6,7 @@ use crate::air::Atmosphere;
 use crate::data::AeroSet;
 use crate::error::{Error, Sensor};
 
-/// Which parts of the vehicle can move. The numbers are those of the FMU's enumeration.
+/// Degrees of freedom. The numbers are those of the FMU's enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Configuration {
     /// Rigid body: 5 states.
@@ -17,7 +17,7 @@ pub enum Configuration {
     SloshBeam = 3,
 }
 
-/// Flight condition to be held.
+/// Flight condition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Condition {
     /// Mach number.
@@ -29,7 +29,7 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// State on this condition with everything else zero.
+    /// State with this condition and all other components zero.
     pub fn start(&self, atmosphere: &Atmosphere) -> State {
         let mut x = [0.0; STATES];
         x[V] = self.mach * atmosphere.sound_speed(self.altitude);
@@ -39,7 +39,7 @@ impl Condition {
     }
 }
 
-/// Where the sensors sit, m from the nose.
+/// Stations of the sensors, m from the nose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SensorStations {
     /// Inertial measurement unit.
@@ -49,7 +49,7 @@ pub struct SensorStations {
 }
 
 impl SensorStations {
-    /// Whether both are on a body of this length, m.
+    /// Checks that both are on a body of this length, m.
     ///
     /// # Errors
     /// [`Error::SensorOffBody`].
@@ -63,25 +63,25 @@ impl SensorStations {
     }
 }
 
-/// What shapes a vehicle.
+/// Options of a vehicle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VehicleOptions {
-    /// Which parts can move.
+    /// Degrees of freedom.
     pub configuration: Configuration,
     /// Coefficient set.
     pub aero: AeroSet,
     /// Propellant at the start, 0 to 1.
     pub fuel_fraction: f64,
-    /// Whether it burns in flight.
+    /// Whether fuel burns in flight.
     pub fuel_burn: bool,
     /// Damping ratio of the sloshing masses.
     pub slosh_damping: f64,
     /// Sloshing frequency, rad/s; 0 takes the geometry of the tanks.
     pub slosh_frequency: f64,
-    /// Flight condition: the tanks' geometry gives a frequency only under its effective gravity.
+    /// Flight condition; its effective gravity determines the sloshing frequency.
     pub condition: Condition,
-    /// Where the sensors sit.
+    /// Sensor stations.
     pub stations: SensorStations,
-    /// What is uncertain.
+    /// Uncertainty factors.
     pub factors: Factors,
 }

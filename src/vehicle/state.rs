@@ -1,4 +1,4 @@
-//! States, controls and gusts of the equations of flight.
+//! States, controls and gusts of the equations of motion, and the indices of their components.
 
 use crate::structure::MODES;
 
@@ -41,17 +41,17 @@ pub const U_GUST: usize = 1;
 /// Number of gust components.
 pub const GUSTS: usize = 2;
 
-/// Typical size of each state (m/s, m, rad, rad, rad/s, then m and m/s, kg/m): scales the tolerance.
+/// Nominal values of the states (m/s, m, rad, rad, rad/s, then m and m/s, kg/m), for tolerances.
 pub const NOMINAL: [f64; STATES] =
     [1e3, 1e4, 0.01, 0.01, 0.01, 1e-3, 0.01, 1e-3, 0.01, 1e-4, 0.005, 0.01, 0.05, 0.01, 0.05, 1e3];
 
-/// All states; those of modes that a configuration does not have stay zero.
+/// All states; those of modes that a configuration lacks remain zero.
 pub type State<S = f64> = [S; STATES];
 /// Effective elevator deflection (rad) and fuel equivalence ratio.
 pub type Control<S = f64> = [S; CONTROLS];
 /// Velocity of the air, m/s: vertical, up positive, and horizontal, along the flight direction.
 pub type Gust<S = f64> = [S; GUSTS];
-/// Fastest gust, m/s: a faster one has no effect beyond this.
+/// Gust components are limited to this magnitude, m/s.
 pub const MAX_GUST_M_PER_S: f64 = 200.0;
 
 /// Names of the states in the variable table.

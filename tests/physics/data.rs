@@ -111,7 +111,7 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
             "length_m = { value = nan",
             "geometry.length_m: NaN must lie in [0.001, 1000] m",
         ),
-        ("length_m = {", "width_m3 = {", "geometry.width_m3: there is no such quantity"),
+        ("length_m = {", "width_m3 = {", "geometry.width_m3: unknown quantity"),
         (
             "nacelle_m = { value = 6.096",
             "nacelle_m = { value = 26.096",

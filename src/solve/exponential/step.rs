@@ -135,7 +135,8 @@ impl<S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
         };
         let d_error = std::array::from_fn(|i| {
             let [q3, q2] = DIFFERENCES.map(|weights| quadrature(&weights, i));
-            // The divisor stays above zero: a compiler may execute a division before the condition that guards it.
+            // The divisor stays above zero: a compiler may execute a division before the condition that
+            // guards it.
             let size = q2.abs().max(f64::MIN_POSITIVE);
             let fall = (QUADRATURE_SHARE * q3.abs()).min(size) / size;
             q3 * fall + STAGE_SHARE * (end.residual[i] - residuals[EARLY][i])

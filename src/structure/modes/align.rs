@@ -3,12 +3,13 @@
 //! With the own modes Phi (mu_i = phi_i^T M phi_i) and the reference modes V, the rotation Q minimises
 //!
 //! ```text
-//! || V N^-1/2 - Phi mu^-1/2 Q ||_M   over Q^T Q = 1,   N_k = v_k^T M v_k:   Q is the orthogonal polar factor of
-//! O_ik = phi_i^T M v_k / sqrt(mu_i N_k)
+//! || V N^-1/2 - Phi mu^-1/2 Q ||_M   over Q^T Q = 1,   N_k = v_k^T M v_k
+//! Q = orthogonal polar factor of O,   O_ik = phi_i^T M v_k / sqrt(mu_i N_k)
 //! ```
 //!
-//! (orthogonal Procrustes problem: Golub, Van Loan, Matrix Computations, 4th ed., section 6.4.1). Newton's iteration
-//! X <- (X + X^-T)/2 from X = O converges to it quadratically (Higham, Functions of Matrices, 2008, section 8.3).
+//! (orthogonal Procrustes problem: Golub, Van Loan, Matrix Computations, 4th ed., section 6.4.1).
+//! Newton's iteration X <- (X + X^-T)/2 from X = O converges to it quadratically (Higham, Functions of
+//! Matrices, 2008, section 8.3).
 
 use super::{FLEXIBLE, MODES, Modes, SLOSH, lanczos};
 use crate::error::Error;
@@ -60,8 +61,8 @@ impl Modes {
 
     /// The modes in the basis nearest to those of a reference, the same vehicle at another fuel level.
     ///
-    /// The beam's share of the reference's slosh modes is scaled by the mass of liquid. Shapes are normalised as in
-    /// [`Modes`]; a slosh mode is normalised by the tank of the reference.
+    /// The beam's share of the reference's slosh modes is scaled by the mass of liquid. Shapes are
+    /// normalised as in [`Modes`]; a slosh mode is normalised by the tank of the reference.
     ///
     /// # Errors
     /// [`Error::ModesNotFollowed`] if O is singular.

@@ -3,15 +3,16 @@
 //! Each rotation in the plane (p, q) annihilates a_pq:
 //!
 //! ```text
-//! zeta = (a_qq - a_pp) / (2 a_pq),   t = sign(zeta) / (|zeta| + sqrt(1 + zeta^2)),   c = 1 / sqrt(1 + t^2),   s = t c
+//! zeta = (a_qq - a_pp) / (2 a_pq),   t = sign(zeta) / (|zeta| + sqrt(1 + zeta^2))
+//! c = 1 / sqrt(1 + t^2),   s = t c
 //! a_pp <- a_pp - t a_pq,   a_qq <- a_qq + t a_pq
 //! ```
 //!
-//! (Golub, Van Loan, Matrix Computations, 4th ed., section 8.5). Sweeps end when |a_pq| <= eps sqrt(a_pp a_qq) for all
-//! p < q: then small eigenvalues of a graded matrix, such as those of fast flexible modes beside slow slosh modes,
-//! have the same relative accuracy as large ones, unlike with QR (Demmel, Veselic, Jacobi's method is more accurate
-//! than QR, SIAM J. Matrix Anal. Appl. 13(4), 1992, 1204-1245). Only `+ - * / sqrt` occur: the same bits on every
-//! platform.
+//! (Golub, Van Loan, Matrix Computations, 4th ed., section 8.5). Sweeps end when |a_pq| <= eps sqrt(a_pp
+//! a_qq) for all p < q: then small eigenvalues of a graded matrix, such as those of fast flexible modes
+//! beside slow slosh modes, have the same relative accuracy as large ones, unlike with QR (Demmel,
+//! Veselic, Jacobi's method is more accurate than QR, SIAM J. Matrix Anal. Appl. 13(4), 1992, 1204-1245).
+//! Only `+ - * / sqrt` occur: the same bits on every platform.
 
 /// Limit of sweeps; seven or eight are usual.
 const MAX_SWEEPS: usize = 40;

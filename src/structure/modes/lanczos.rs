@@ -4,41 +4,43 @@
 //! A phi = phi / omega^2,   A = K^+ M
 //! ```
 //!
-//! on displacements M-orthogonal to heave and pitch, where K^+ is the static solution of [`Beam::deflect`]. A is
-//! symmetric in the inner product x^T M y. K is singular on rigid-body motion only, so no shift is needed, and no
-//! matrix is factored.
+//! on displacements M-orthogonal to heave and pitch, where K^+ is the static solution of
+//! [`Beam::deflect`]. A is symmetric in the inner product x^T M y. K is singular on rigid-body motion
+//! only, so no shift is needed, and no matrix is factored.
 //!
 //! # Iteration
 //!
-//! Starting vectors: the static responses to a unit force on the nose and on each sloshing mass, 1 or 3, which is
-//! the bandwidth p. Step j computes A v_j, M-orthogonalises it against heave, pitch and all v_i (full
-//! reorthogonalisation, Gram-Schmidt twice) and appends the normalised rest as v_(j+p). A vector whose rest is
-//! below 1e-14 is dropped (deflation), which lowers p. The components of A v_j are column j of the projected
-//! matrix T_n = V_n^T M A V_n, a band matrix of half-width p.
+//! Starting vectors: the static responses to a unit force on the nose and on each sloshing mass, 1 or 3,
+//! which is the bandwidth p. Step j computes A v_j, M-orthogonalises it against heave, pitch and all v_i
+//! (full reorthogonalisation, Gram-Schmidt twice) and appends the normalised rest as v_(j+p). A vector
+//! whose rest is below 1e-14 is dropped (deflation), which lowers p. The components of A v_j are column j
+//! of the projected matrix T_n = V_n^T M A V_n, a band matrix of half-width p.
 //!
 //! # Stopping
 //!
-//! A Ritz pair T_n s = theta s, x = V_n s has the residual `A x - theta x = R s`, R the part of A V_n outside V_n.
-//! With its M-norm rho and the distance `gap` of theta to the other eigenvalues of A,
+//! A Ritz pair T_n s = theta s, x = V_n s has the residual `A x - theta x = R s`, R the part of A V_n
+//! outside V_n. With its M-norm rho and the distance `gap` of theta to the other eigenvalues of A,
 //!
 //! ```text
 //! |theta - 1/omega^2| <= min(rho, rho^2/gap),   sin(angle between x and phi) <= rho/gap
 //! ```
 //!
-//! The iteration ends when rho <= 1e-13 theta for all wanted modes and rho <= 1e-3 theta for the next one, the
-//! guard, or when all p starting vectors are exhausted. One Rayleigh-Ritz step in the Ritz vectors follows.
+//! The iteration ends when rho <= 1e-13 theta for all wanted modes and rho <= 1e-3 theta for the next
+//! one, the guard, or when all p starting vectors are exhausted. One Rayleigh-Ritz step in the Ritz
+//! vectors follows.
 //!
 //! # No mode is missed
 //!
-//! A mode phi contributes phi(nose) / omega^2 and phi(mass j) / omega^2 to the starting vectors. If all of these were
-//! 0, the springs would be slack (`k_j (phi_j - w_j) = omega^2 m_j phi_j = 0`) and phi a mode of the bare beam with a
-//! node at its free end, which does not exist. For the same reason a multiple eigenvalue has at most p modes, and
-//! they are independent in the starting vectors. So the Krylov space contains every mode.
+//! A mode phi contributes phi(nose) / omega^2 and phi(mass j) / omega^2 to the starting vectors. If all
+//! of these were 0, the springs would be slack (`k_j (phi_j - w_j) = omega^2 m_j phi_j = 0`) and phi a
+//! mode of the bare beam with a node at its free end, which does not exist. For the same reason a
+//! multiple eigenvalue has at most p modes, and they are independent in the starting vectors. So the
+//! Krylov space contains every mode.
 //!
-//! Sources: A. Ruhe, Implementation aspects of band Lanczos algorithms, Math. Comp. 33(146), 1979, 680-687; B. N.
-//! Parlett, The Symmetric Eigenvalue Problem, 1980, sections 6.9 (Gram-Schmidt twice) and 11.7 (residual bounds).
-//! Tests: `verif_frequencies_are_right_and_none_is_missed` (Sylvester's law of inertia, 32 digits),
-//! `verif_shapes_are_those_of_inverse_iteration_in_double_double`.
+//! Sources: A. Ruhe, Implementation aspects of band Lanczos algorithms, Math. Comp. 33(146), 1979,
+//! 680-687; B. N. Parlett, The Symmetric Eigenvalue Problem, 1980, sections 6.9 (Gram-Schmidt twice) and
+//! 11.7 (residual bounds). Tests: `verif_frequencies_are_right_and_none_is_missed` (Sylvester's law of
+//! inertia, 32 digits), `verif_shapes_are_those_of_inverse_iteration_in_double_double`.
 
 use super::jacobi;
 use crate::error::Error;
