@@ -2,8 +2,10 @@
 //!
 //! A binary with one test: another one in this process would keep the library loaded.
 
-#[path = "abi/common/mod.rs"]
+#[path = "abi/common.rs"]
 mod common;
+#[path = "../crates/fmi/tests/master/mod.rs"]
+mod master;
 
 use common::{Api, Slave};
 use fmi_model::v2::sys::Status;

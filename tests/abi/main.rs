@@ -5,9 +5,11 @@
 mod common;
 mod derivatives;
 mod exchange;
-mod fuzz;
 mod lifecycle;
 mod logging;
+#[path = "../../crates/fmi/tests/master/mod.rs"]
+mod master;
+mod random_calls;
 mod refusals;
 mod state;
 mod steps;

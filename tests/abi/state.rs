@@ -1,6 +1,7 @@
 //! FMU states: saved, restored, as bytes, elsewhere, and damaged.
 
 use crate::common::{Api, Random, Slave, configurations};
+use ahv::variables::TABLE;
 use fmi_model::v2::sys::Status;
 use std::ptr::null_mut;
 
@@ -225,6 +226,47 @@ fn damaged_truncated_and_foreign_bytes_are_refused_and_change_nothing() {
     assert_eq!(slave.bytes(now), good);
     slave.free(now);
     slave.free(saved);
+}
+
+/// Magic, version, length, identity; then phase and flags.
+const FIRST_NUMBER: usize = 8 + 4 + 4 + 16 + 2;
+
+/// The bytes with their right checksum, 64-bit FNV-1a.
+fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let end = bytes.len() - 8;
+    let sum = bytes[..end].iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    bytes[end..].copy_from_slice(&sum.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn no_number_of_a_state_may_be_forged_into_none() {
+    let api = Api::load();
+    for configuration in configurations() {
+        let slave = Slave::flying_as(&api, configuration);
+        assert_eq!(slave.step(0.0, 0.1), Status::Ok);
+        let saved = slave.save();
+        let good = slave.bytes(saved);
+        slave.free(saved);
+        assert_eq!(good, sealed(good.clone()), "the checksum is FNV-1a");
+        let numbers = (good.len() - FIRST_NUMBER - 8) / 8;
+        assert!(numbers > TABLE.len() / 2, "{numbers}");
+        for number in 0..numbers {
+            for value in [f64::NAN, f64::NEG_INFINITY] {
+                let mut bytes = good.clone();
+                let at = FIRST_NUMBER + 8 * number;
+                bytes[at..at + 8].copy_from_slice(&value.to_le_bytes());
+                let (status, state) = slave.state_of(&sealed(bytes));
+                assert_eq!(
+                    (status, state),
+                    (Status::Error, null_mut()),
+                    "number {number}: {value}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -28,7 +28,7 @@ fn standard() -> BTreeSet<String> {
 
 #[test]
 fn exactly_the_functions_of_the_standard_are_exported() {
-    let bytes = std::fs::read(crate::common::library_path()).unwrap();
+    let bytes = std::fs::read(crate::master::library_path::<ahv::flight::Setup>()).unwrap();
     let file = object::File::parse(&*bytes).unwrap();
     // Mach-O puts an underscore before every C name.
     let name = |bytes: &[u8]| String::from_utf8_lossy(bytes).trim_start_matches('_').to_string();

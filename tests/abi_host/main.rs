@@ -6,11 +6,13 @@
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 #![allow(unsafe_code)]
 
-#[path = "../abi/common/mod.rs"]
+#[path = "../abi/common.rs"]
 mod common;
 mod edges;
 mod flights;
 mod host;
+#[path = "../../crates/fmi/tests/master/mod.rs"]
+mod master;
 mod watch;
 
 use common::Api;

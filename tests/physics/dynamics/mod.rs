@@ -7,3 +7,4 @@ mod free_body;
 mod limits;
 mod one_body;
 mod sensors;
+mod stations;

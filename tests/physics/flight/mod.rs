@@ -3,3 +3,4 @@
 mod burning;
 mod method;
 mod offsets;
+mod steps;

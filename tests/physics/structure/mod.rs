@@ -5,3 +5,4 @@ mod damping;
 mod modes;
 mod reference;
 mod tanks;
+mod uniform_beam;

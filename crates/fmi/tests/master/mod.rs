@@ -1,20 +1,24 @@
-//! The real shared library, loaded as a master does.
+//! A master in Rust, for tests of any model's shared library.
 #![allow(unsafe_code, dead_code)]
 
+use fmi_model::Model;
 use fmi_model::v2::sys::{self, FmiString, Status};
 use libloading::{Library, library_filename};
 use std::ffi::{CStr, c_void};
+use std::marker::PhantomData;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
+pub mod fuzz;
+pub mod order;
 mod slave;
 #[allow(unused_imports)]
 pub use slave::*;
 
 /// The library that `cargo test` built: beside the test's own executable, or one folder up.
-pub fn library_path() -> PathBuf {
+pub fn library_path<M: Model>() -> PathBuf {
     let test = std::env::current_exe().expect("the path of this test");
-    let name = library_filename("ahv");
+    let name = library_filename(M::ABOUT.identifier);
     test.ancestors()
         .skip(1)
         .take(2)
@@ -25,21 +29,23 @@ pub fn library_path() -> PathBuf {
 
 macro_rules! api {
     ($($field:ident: $function:ident $name:literal;)*) => {
-        /// All functions of the library.
-        pub struct Api {
+        /// All functions of a model's library.
+        pub struct Api<M> {
             $(pub $field: sys::$function,)*
             library: Library,
+            model: PhantomData<fn() -> M>,
         }
 
-        impl Api {
+        impl<M: Model> Api<M> {
             /// Loads the library and all functions.
             pub fn load() -> Self {
                 // SAFETY: the library has no initialiser, and the types are proved elsewhere.
                 unsafe {
-                    let library = Library::new(library_path()).expect("the library loads");
+                    let library = Library::new(library_path::<M>()).expect("the library loads");
                     Self {
                         $($field: *library.get($name).expect($name),)*
                         library,
+                        model: PhantomData,
                     }
                 }
             }

@@ -1,25 +1,24 @@
 //! An instance with a recording logger.
 
 use super::{Api, Record, Sink, callbacks};
-use ahv::variables::TABLE;
 use fmi_model::v2::sys::{self, Status, StatusKind};
-use fmi_model::{Kind, identity::guid};
+use fmi_model::{Kind, Model, identity::guid};
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
 
 /// Value reference of a variable.
-pub fn reference(name: &str) -> u32 {
-    TABLE.iter().position(|variable| variable.name == name).expect(name) as u32
+pub fn reference<M: Model>(name: &str) -> u32 {
+    M::VARIABLES.iter().position(|variable| variable.name == name).expect(name) as u32
 }
 
 /// An instance.
-pub struct Slave<'a> {
-    pub api: &'a Api,
+pub struct Slave<'a, M: Model> {
+    pub api: &'a Api<M>,
     pub c: sys::Component,
     sink: Box<Sink>,
 }
 
-impl Drop for Slave<'_> {
+impl<M: Model> Drop for Slave<'_, M> {
     fn drop(&mut self) {
         // SAFETY: a live instance, freed once.
         unsafe { (self.api.free_instance)(self.c) }
@@ -27,23 +26,23 @@ impl Drop for Slave<'_> {
 }
 
 // SAFETY of all calls below: the instance lives, and the arrays have the lengths given.
-impl<'a> Slave<'a> {
-    pub fn new(api: &'a Api) -> Self {
+impl<'a, M: Model> Slave<'a, M> {
+    pub fn new(api: &'a Api<M>) -> Self {
         Self::with_logging(api, false)
     }
 
     /// An instance for model exchange.
-    pub fn exchange(api: &'a Api) -> Self {
+    pub fn exchange(api: &'a Api<M>) -> Self {
         Self::with(api, sys::Type::MODEL_EXCHANGE, false)
     }
 
-    pub fn with_logging(api: &'a Api, on: bool) -> Self {
+    pub fn with_logging(api: &'a Api<M>, on: bool) -> Self {
         Self::with(api, sys::Type::CO_SIMULATION, on)
     }
 
-    pub fn with(api: &'a Api, kind: sys::Type, on: bool) -> Self {
+    pub fn with(api: &'a Api<M>, kind: sys::Type, on: bool) -> Self {
         let sink = Box::new(Sink::default());
-        let guid = CString::new(guid::<ahv::flight::Setup>()).unwrap();
+        let guid = CString::new(guid::<M>()).unwrap();
         let functions = callbacks(&sink);
         let c = unsafe {
             (api.instantiate)(
@@ -58,31 +57,6 @@ impl<'a> Slave<'a> {
         };
         assert!(!c.is_null());
         Self { api, c, sink }
-    }
-
-    /// A rigid vehicle, ready for its first step.
-    pub fn flying(api: &'a Api) -> Self {
-        Self::flying_as(api, 1)
-    }
-
-    /// A vehicle of this configuration, ready for its first step.
-    pub fn flying_as(api: &'a Api, configuration: i32) -> Self {
-        let slave = Self::new(api);
-        slave.start_as(configuration);
-        slave
-    }
-
-    /// From just instantiated to ready for the first step, with a rigid vehicle.
-    pub fn start(&self) {
-        self.start_as(1);
-    }
-
-    /// From just instantiated to ready for the first step.
-    pub fn start_as(&self, configuration: i32) {
-        assert_eq!(self.set_integer("configuration", configuration), Status::Ok);
-        assert_eq!(self.setup(), Status::Ok);
-        assert_eq!(self.enter(), Status::Ok);
-        assert_eq!(self.exit(), Status::Ok);
     }
 
     /// What was logged since the last call.
@@ -128,7 +102,7 @@ impl<'a> Slave<'a> {
     }
 
     pub fn set(&self, name: &str, value: f64) -> Status {
-        self.set_reals(&[reference(name)], &[value])
+        self.set_reals(&[reference::<M>(name)], &[value])
     }
 
     pub fn set_reals(&self, references: &[u32], values: &[f64]) -> Status {
@@ -138,15 +112,17 @@ impl<'a> Slave<'a> {
 
     /// The derivative of an order of an input, for the next step.
     pub fn set_input_derivative(&self, name: &str, order: i32, value: f64) -> Status {
-        unsafe { (self.api.set_input_derivatives)(self.c, &reference(name), 1, &order, &value) }
+        unsafe {
+            (self.api.set_input_derivatives)(self.c, &reference::<M>(name), 1, &order, &value)
+        }
     }
 
     pub fn set_integer(&self, name: &str, value: i32) -> Status {
-        unsafe { (self.api.set_integer)(self.c, &reference(name), 1, &value) }
+        unsafe { (self.api.set_integer)(self.c, &reference::<M>(name), 1, &value) }
     }
 
     pub fn set_boolean(&self, name: &str, value: i32) -> Status {
-        unsafe { (self.api.set_boolean)(self.c, &reference(name), 1, &value) }
+        unsafe { (self.api.set_boolean)(self.c, &reference::<M>(name), 1, &value) }
     }
 
     /// Status and values; what was not written is NaN.
@@ -158,14 +134,14 @@ impl<'a> Slave<'a> {
     }
 
     pub fn get(&self, name: &str) -> f64 {
-        let (status, values) = self.reals(&[reference(name)]);
+        let (status, values) = self.reals(&[reference::<M>(name)]);
         assert_eq!(status, Status::Ok, "{name}");
         values[0]
     }
 
     /// Bits of all variables of type Real.
     pub fn bits(&self) -> Vec<u64> {
-        let (status, values) = self.reals(&all_reals());
+        let (status, values) = self.reals(&all_reals::<M>());
         assert_eq!(status, Status::Ok, "{:?}", self.log());
         assert!(values.iter().all(|value| value.is_finite()));
         values.into_iter().map(f64::to_bits).collect()
@@ -215,26 +191,12 @@ impl<'a> Slave<'a> {
         let status = unsafe { (self.api.deserialize)(self.c, from, bytes.len(), &mut state) };
         (status, state)
     }
-
-    /// Flies with nearly all of the elevator until a step ends early; the communication point of that step.
-    pub fn leave_envelope(&self) -> f64 {
-        assert_eq!(self.set("delta_e", 0.15), Status::Ok);
-        let step = 0.0625;
-        for i in 0..200 {
-            let point = f64::from(i) * step;
-            match self.step(point, step) {
-                Status::Ok => {}
-                Status::Discard => return point,
-                other => panic!("{other:?} {:?}", self.log()),
-            }
-        }
-        panic!("so much elevator for 12.5 s and still inside the envelope");
-    }
 }
 
 /// Value references of all variables of type Real.
-pub fn all_reals() -> Vec<u32> {
-    (0..TABLE.len() as u32).filter(|&i| matches!(TABLE[i as usize].kind, Kind::Real(_))).collect()
+pub fn all_reals<M: Model>() -> Vec<u32> {
+    let is_real = |&i: &u32| matches!(M::VARIABLES[i as usize].kind, Kind::Real(_));
+    (0..M::VARIABLES.len() as u32).filter(is_real).collect()
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014): the same sequence everywhere.
@@ -251,13 +213,5 @@ impl Random {
 
     pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len() as u64) as usize]
-    }
-}
-
-/// Numbers of all items of the enumeration `configuration`.
-pub fn configurations() -> Vec<i32> {
-    match TABLE[reference("configuration") as usize].kind {
-        Kind::Enumeration(_, items) => items.iter().map(|&(_, number, _)| number).collect(),
-        _ => panic!("configuration is no enumeration"),
     }
 }

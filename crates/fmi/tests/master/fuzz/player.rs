@@ -1,12 +1,9 @@
 //! The master that plays: its instance, what it knows of it, and the arguments it passes.
 
-use crate::common::{Api, Random, Slave};
-use ahv::flight::Setup;
-use ahv::variables::TABLE;
-use ahv::vehicle::STATES;
+use super::super::{Api, Random, Slave, all_reals};
 use fmi_model::v2::calls::Phase;
 use fmi_model::v2::sys::{Component, FmuState, Status, ValueReference};
-use fmi_model::{Kind, Variable};
+use fmi_model::{Kind, Model, Simulation, Variable, table};
 use std::fmt::Debug;
 use std::ptr::null_mut;
 
@@ -56,8 +53,8 @@ pub struct Saved {
 }
 
 /// An instance, the state in which it has to be, and FMU states with theirs.
-pub struct Player<'a> {
-    pub slave: Slave<'a>,
+pub struct Player<'a, M: Model> {
+    pub slave: Slave<'a, M>,
     /// For model exchange, not for co-simulation.
     exchange: bool,
     /// The instance, or NULL, for the next call.
@@ -69,22 +66,22 @@ pub struct Player<'a> {
     pub unsound: bool,
 }
 
-pub fn real(variable: &Variable<Setup>) -> bool {
+pub fn real<M: Model>(variable: &Variable<M>) -> bool {
     matches!(variable.kind, Kind::Real(_))
 }
 
-pub fn integer(variable: &Variable<Setup>) -> bool {
+pub fn integer<M: Model>(variable: &Variable<M>) -> bool {
     matches!(variable.kind, Kind::Enumeration(..))
 }
 
-pub fn boolean(variable: &Variable<Setup>) -> bool {
+pub fn boolean<M: Model>(variable: &Variable<M>) -> bool {
     matches!(variable.kind, Kind::Boolean)
 }
 
-type Kinds = fn(&Variable<Setup>) -> bool;
+type Kinds<M> = fn(&Variable<M>) -> bool;
 
-impl<'a> Player<'a> {
-    pub fn new(api: &'a Api, exchange: bool) -> Self {
+impl<'a, M: Model> Player<'a, M> {
+    pub fn new(api: &'a Api<M>, exchange: bool) -> Self {
         let slave = if exchange { Slave::exchange(api) } else { Slave::new(api) };
         let c = slave.c;
         let (phase, has_experiment) = (Phase::Instantiated, false);
@@ -92,15 +89,15 @@ impl<'a> Player<'a> {
     }
 
     /// Value references: half of the arrays have fitting ones only, the others whatever comes.
-    pub fn references(random: &mut Random, kinds: Kinds, settable: bool) -> Vec<ValueReference> {
+    pub fn references(random: &mut Random, kinds: Kinds<M>, settable: bool) -> Vec<ValueReference> {
         let fit = |i: &u32| {
-            let variable = &TABLE[*i as usize];
+            let variable = &M::VARIABLES[*i as usize];
             kinds(variable) && (!settable || variable.settable())
         };
-        let fitting: Vec<_> = (0..TABLE.len() as u32).filter(fit).collect();
-        let any = random.below(2) == 0;
+        let fitting: Vec<_> = (0..M::VARIABLES.len() as u32).filter(fit).collect();
+        let any = random.below(2) == 0 || fitting.is_empty();
         let one = |random: &mut Random| match any {
-            true => random.below(TABLE.len() as u64 + 2) as u32,
+            true => random.below(M::VARIABLES.len() as u64 + 2) as u32,
             false => random.pick(&fitting),
         };
         (0..random.below(4)).map(|_| one(random)).collect()
@@ -117,7 +114,7 @@ impl<'a> Player<'a> {
     pub fn read<T: Copy + PartialEq + Debug>(
         &mut self,
         random: &mut Random,
-        kinds: Kinds,
+        kinds: Kinds<M>,
         blank: T,
         call: impl FnOnce(Component, *const ValueReference, usize, *mut T) -> Status,
     ) -> (Status, Vec<T>) {
@@ -138,7 +135,7 @@ impl<'a> Player<'a> {
     pub fn write<T: Copy + PartialEq + Debug>(
         &mut self,
         random: &mut Random,
-        kinds: Kinds,
+        kinds: Kinds<M>,
         element: fn(&mut Random) -> T,
         set: impl FnOnce(Component, *const ValueReference, usize, *const T) -> Status,
         get: impl Fn(Component, *const ValueReference, usize, *mut T) -> Status,
@@ -156,7 +153,7 @@ impl<'a> Player<'a> {
                 let last = (0..count).rfind(|&k| references.items[k] == *reference).unwrap_or(i);
                 let mut found = given[last];
                 assert_eq!(get(self.c, reference, 1, &mut found), Status::Ok);
-                assert_eq!(found, given[last], "{}", TABLE[*reference as usize].name);
+                assert_eq!(found, given[last], "{}", M::VARIABLES[*reference as usize].name);
             }
         }
         status
@@ -168,9 +165,10 @@ impl<'a> Player<'a> {
         random: &mut Random,
         call: impl FnOnce(Component, *mut f64, usize) -> Status,
     ) -> Status {
-        let count = STATES - usize::from(random.below(8) == 0);
+        let states = table::states::<M>();
+        let count = states.saturating_sub(usize::from(random.below(8) == 0));
         let values = Array::new(random, vec![BLANK; count], BLANK);
-        self.unsound = !values.sound || count != STATES;
+        self.unsound = !values.sound || count != states;
         let status = call(self.c, values.pointer, count);
         let written = values.items.iter().filter(|&&value| value != BLANK).count();
         assert_eq!(written, if status == Status::Ok { count } else { 0 }, "{:?}", values.items);
@@ -192,7 +190,12 @@ impl<'a> Player<'a> {
         (!null).then(|| self.saved[random.below(self.saved.len() as u64) as usize].clone())
     }
 
+    /// All that can be seen of the instance: its state, or else its values.
     pub fn bytes(&self) -> Vec<u8> {
+        if M::Simulation::SAVING.is_none() {
+            let (_, values) = self.slave.reals(&all_reals::<M>());
+            return values.into_iter().flat_map(f64::to_le_bytes).collect();
+        }
         let state = self.slave.save();
         let bytes = self.slave.bytes(state);
         self.slave.free(state);
