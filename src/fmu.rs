@@ -11,6 +11,7 @@ use crate::flight::{
 };
 use crate::short::short;
 use crate::variables::TABLE;
+use crate::vehicle::ALPHA;
 use fmi_model::identity::{fnv, hash_of_table};
 use fmi_model::{About, Exchange, InputDerivatives, Model, Saving, Simulation, Tangent, Variable};
 
@@ -59,7 +60,7 @@ impl Model for Setup {
     }
 
     fn started(&self, default: &Self, flight: &Flight, say: &mut dyn FnMut(String)) {
-        let (alpha, [delta_e, phi]) = (flight.states()[3], flight.trim().control);
+        let (alpha, [delta_e, phi]) = (flight.states()[ALPHA], flight.trim().control);
         say(format!("start with alpha = {alpha} rad, delta_e = {delta_e} rad, phi = {phi}"));
         for (name, why) in ignored::ignored(&self.parameters) {
             let Some(variable) = fmi_model::table::find::<Self>(name) else { continue };

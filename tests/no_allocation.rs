@@ -3,6 +3,7 @@
 
 mod model;
 
+use ahv::vehicle::DELTA_E;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -36,7 +37,7 @@ fn verif_a_step_with_all_outputs_allocates_nothing() {
         let before = ALLOCATIONS.with(Cell::get);
         assert!(before > 0, "the counter counts");
         for step in 1..=50 {
-            flight.set_input(0, 1e-3 * f64::from(step % 3));
+            flight.set_input(DELTA_E, 1e-3 * f64::from(step % 3));
             flight.advance(f64::from(step) * 0.01).unwrap();
             flight.evaluate().unwrap();
         }

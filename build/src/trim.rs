@@ -6,7 +6,7 @@ use crate::table::{number, row, table};
 use crate::{describe, settings};
 use ahv::flight::{Flight, Setup};
 use ahv::fmu::Message;
-use ahv::vehicle::RIGID;
+use ahv::vehicle::{H, eta};
 use anyhow::{Result, anyhow};
 use fmi_model::table::find;
 use serde_json::json;
@@ -44,10 +44,10 @@ pub fn run(options: &Analyse) -> Result<()> {
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let loads = vehicle.loads(&trim.state, &trim.control);
     let (_, outputs) = vehicle.derivatives_and_outputs(&trim.state, &trim.control, [0.0; 2]);
-    let (gravity, _) = vehicle.atmosphere.gravity(trim.state[1]);
+    let (gravity, _) = vehicle.atmosphere.gravity(trim.state[H]);
     let [v, h, gamma, alpha, ..] = trim.state;
     let [delta_e, phi] = trim.control;
-    let elastic = |mode: usize| trim.state[RIGID + 2 * mode];
+    let elastic = |mode: usize| trim.state[eta(mode)];
 
     // Name, value in SI, unit, and how it is shown.
     let degrees = ("deg", 1f64.to_degrees());

@@ -3,8 +3,7 @@
 use crate::dynamics::linear::LinearModel;
 use crate::dynamics::trim::Trim;
 use crate::solve::{Decoupling, Exponential};
-use crate::structure::MODES;
-use crate::vehicle::{NOMINAL, RIGID, STATES, Vehicle};
+use crate::vehicle::{ALPHA, FUEL, NOMINAL, STATES, Vehicle};
 
 /// Tolerances that the integrator works with: below the first, rounding errors of double precision
 /// decide, above the second the error estimate means nothing.
@@ -15,9 +14,9 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-8;
 pub(super) const FIRST_STEP: f64 = 1e-3;
 
 /// Incidence, pitch rate and modes: the states that move fast.
-const FAST: usize = 2 + 2 * MODES;
-/// Those before them.
-const SLOW: usize = RIGID - 2;
+const FAST: usize = FUEL - ALPHA;
+/// V, h and gamma.
+const SLOW: usize = ALPHA;
 
 /// What integrates a flight.
 pub type Method = Exponential<STATES, SLOW, FAST>;

@@ -10,7 +10,9 @@ use crate::dynamics::trim::Trim;
 use crate::error::{Error, LimitedKind, StartCause};
 use crate::solve::Integrator;
 use crate::structure::{FLEXIBLE, MODES, SLOSH};
-use crate::vehicle::{CONTROLS, FUEL, GUSTS, PHI, RIGID, State, Vehicle, VehicleOptions};
+use crate::vehicle::{
+    ALPHA, CONTROLS, FUEL, GUSTS, PHI, Q, State, Vehicle, VehicleOptions, eta, eta_dot,
+};
 use std::sync::Arc;
 
 /// What a flight starts from.
@@ -61,10 +63,10 @@ impl Setup {
         } else {
             let mut state = options.condition.start(&vehicle.atmosphere);
             state[FUEL] = vehicle.fuel;
-            state[3] = alpha0;
-            state[4] = q0;
-            for (i, eta) in eta0.into_iter().enumerate().take(vehicle.modes) {
-                state[RIGID + 2 * i] = eta;
+            state[ALPHA] = alpha0;
+            state[Q] = q0;
+            for (i, eta_i) in eta0.into_iter().enumerate().take(vehicle.modes) {
+                state[eta(i)] = eta_i;
             }
             Trim { state, control: [0.0; 2] }
         };
@@ -110,10 +112,10 @@ fn boxed(vehicle: &Vehicle, steady: &Trim) -> Box<Method> {
 /// Adds the offsets. Those of the sloshing masses are of their displacements: the slosh modes take what
 /// the flexible ones leave.
 fn disturb(vehicle: &Vehicle, state: &mut State, offsets: &Offsets) {
-    state[3] += offsets.alpha;
-    state[4] += offsets.q;
+    state[ALPHA] += offsets.alpha;
+    state[Q] += offsets.q;
     let slosh = &vehicle.airframe.slosh;
-    for (first, offset) in [(RIGID, &offsets.displacement), (RIGID + 1, &offsets.rate)] {
+    for (first, offset) in [(eta(0), &offsets.displacement), (eta_dot(0), &offsets.rate)] {
         let mut modes = [0.0; MODES];
         modes[..FLEXIBLE].copy_from_slice(&offset[..FLEXIBLE]);
         let left: [f64; SLOSH] = std::array::from_fn(|tank| {

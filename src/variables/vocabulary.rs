@@ -2,7 +2,7 @@
 
 use crate::data::OWN;
 use crate::flight::{Flight, Sample, Setup};
-use crate::vehicle::{NOMINAL, STATES};
+use crate::vehicle::{self, CONTROLS, NOMINAL, STATES, eta};
 use fmi_model::{Dependencies, Kind, Unit, Variable};
 
 /// Degrees per radian.
@@ -43,18 +43,19 @@ pub(super) const fn constant(mask: u64) -> Dependencies {
     Dependencies::constant(mask)
 }
 
-pub(super) const V: u64 = 1 << 0;
-pub(super) const H: u64 = 1 << 1;
-pub(super) const GAMMA: u64 = 1 << 2;
-pub(super) const ALPHA: u64 = 1 << 3;
-pub(super) const Q: u64 = 1 << 4;
-pub(super) const FUEL: u64 = 1 << 15;
-pub(super) const DELTA_E: u64 = 1 << STATES;
-pub(super) const PHI: u64 = 1 << (STATES + 1);
-pub(super) const W_GUST: u64 = 1 << (STATES + 2);
-pub(super) const U_GUST: u64 = 1 << (STATES + 3);
+// Bits of the dependency masks: states, then inputs (controls, then gusts).
+pub(super) const V: u64 = 1 << vehicle::V;
+pub(super) const H: u64 = 1 << vehicle::H;
+pub(super) const GAMMA: u64 = 1 << vehicle::GAMMA;
+pub(super) const ALPHA: u64 = 1 << vehicle::ALPHA;
+pub(super) const Q: u64 = 1 << vehicle::Q;
+pub(super) const FUEL: u64 = 1 << vehicle::FUEL;
+pub(super) const DELTA_E: u64 = 1 << (STATES + vehicle::DELTA_E);
+pub(super) const PHI: u64 = 1 << (STATES + vehicle::PHI);
+pub(super) const W_GUST: u64 = 1 << (STATES + CONTROLS + vehicle::W_GUST);
+pub(super) const U_GUST: u64 = 1 << (STATES + CONTROLS + vehicle::U_GUST);
 pub(super) const GUST: u64 = W_GUST | U_GUST;
-pub(super) const ETAS: u64 = 1 << 5 | 1 << 7 | 1 << 9 | 1 << 11 | 1 << 13;
+pub(super) const ETAS: u64 = 1 << eta(0) | 1 << eta(1) | 1 << eta(2) | 1 << eta(3) | 1 << eta(4);
 pub(super) const RATES: u64 = ETAS << 1;
 pub(super) const ELASTIC: u64 = ETAS | RATES;
 /// Speed and incidence relative to moving air.

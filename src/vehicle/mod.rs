@@ -29,5 +29,5 @@ pub use fuel_table::FuelTable;
 pub use options::{Condition, Configuration, SensorStations, VehicleOptions};
 pub use state::{
     ALPHA, CONTROLS, Control, DELTA_E, FUEL, GAMMA, GUSTS, Gust, H, MAX_GUST_M_PER_S, NOMINAL, PHI,
-    Q, RIGID, STATE_NAMES, STATES, State, U_GUST, V, W_GUST, eta, eta_dot,
+    Q, RIGID_STATES, STATE_NAMES, STATES, State, U_GUST, V, W_GUST, eta, eta_dot,
 };

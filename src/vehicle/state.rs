@@ -13,10 +13,10 @@ pub const ALPHA: usize = 3;
 /// Index of the pitch rate q, rad/s.
 pub const Q: usize = 4;
 /// Number of rigid-body states: V, h, gamma, alpha, q.
-pub const RIGID: usize = Q + 1;
+pub const RIGID_STATES: usize = Q + 1;
 /// Index of the modal coordinate of a mode, m: flexible modes first, then slosh modes.
 pub const fn eta(mode: usize) -> usize {
-    RIGID + 2 * mode
+    RIGID_STATES + 2 * mode
 }
 /// Index of the rate of a modal coordinate, m/s.
 pub const fn eta_dot(mode: usize) -> usize {

@@ -5,7 +5,7 @@ use super::printed::{
 };
 use crate::model::{AERO_SETS, assert_close, data, deviation, options};
 use ahv::data::AeroSet::{Parker2007, Xu2015};
-use ahv::vehicle::{Configuration, Vehicle, VehicleDefinition, VehicleOptions};
+use ahv::vehicle::{Configuration, H, V, Vehicle, VehicleDefinition, VehicleOptions};
 
 /// "about 1 %": the published fits with the inertia that the paper's short period asks for.
 const RIGID_COLUMN: f64 = 0.012;
@@ -94,7 +94,7 @@ fn paper_table3_a_q_term_in_lift_or_theta_in_the_output_makes_rigid_zeros_unequa
         assert_close("short period with lift by q", found, printed, RIGID_COLUMN + 0.003);
     }
     // As a coefficient: gamma' = C_Lq (cbar q/2V) qbar S/(m V).
-    let (speed, height) = (trim.state[0], trim.state[1]);
+    let (speed, height) = (trim.state[V], trim.state[H]);
     let pressure = 0.5 * vehicle.atmosphere.air(height).density * speed * speed;
     let reference = &data().parker2007.reference;
     let force = pressure * reference.area_m2_per_m.value * reference.chord_m.value;

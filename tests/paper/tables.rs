@@ -4,7 +4,7 @@
 use super::printed::{FLEXIBLE, ends, floats, pairs, printed, published, seen, size};
 use crate::model::{CONFIGURATIONS, assert_close, data, deviation, options, vehicle, vehicle_with};
 use ahv::data::AeroSet::{Parker2007, Xu2015};
-use ahv::vehicle::{Configuration, Vehicle};
+use ahv::vehicle::{ALPHA, Configuration, H, V, Vehicle};
 
 /// Table 1 is met by identified data, to more digits than it prints.
 const TABLE1: f64 = 1e-3;
@@ -112,15 +112,15 @@ fn paper_published_trim_closes_lift_but_not_moment() {
     let vehicle = vehicle_with(Parker2007, Configuration::Rigid);
     let radians = std::f64::consts::PI / 180.0;
     let mut x = [0.0; ahv::vehicle::STATES];
-    x[0] = 7702.08 * 0.3048;
-    x[1] = 85_000.0 * 0.3048;
-    x[3] = 1.5153 * radians;
+    x[V] = 7702.08 * 0.3048;
+    x[H] = 85_000.0 * 0.3048;
+    x[ALPHA] = 1.5153 * radians;
     let loads = vehicle.loads(&x, &[11.4635 * radians, 0.2514]);
-    let (gravity, distance) = vehicle.atmosphere.gravity(x[1]);
-    let weight = vehicle.airframe.mass * (gravity - x[0] * x[0] / distance);
-    let up = loads.lift + loads.thrust * x[3].sin();
+    let (gravity, distance) = vehicle.atmosphere.gravity(x[H]);
+    let weight = vehicle.airframe.mass * (gravity - x[V] * x[V] / distance);
+    let up = loads.lift + loads.thrust * x[ALPHA].sin();
     assert_close("lift", up, weight, 1e-2);
-    let imbalance = loads.thrust * x[3].cos() / loads.drag - 1.0;
+    let imbalance = loads.thrust * x[ALPHA].cos() / loads.drag - 1.0;
     assert!((0.05..0.09).contains(&imbalance), "{imbalance}");
     assert!(loads.moment.abs() > 4e4, "{}", loads.moment);
 }

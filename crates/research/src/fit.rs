@@ -14,7 +14,7 @@ use ahv::data::{
 use ahv::dynamics::trim::trim;
 use ahv::flight::Parameters;
 use ahv::structure::{FLEXIBLE, Modes};
-use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
+use ahv::vehicle::{ALPHA, Configuration, Vehicle, VehicleOptions, structure};
 use ahv_tool::table::{row, table};
 use ahv_tool::workspace::{MAX_DATA_BYTES, read_text, root, shown, write};
 use anyhow::{Result, bail};
@@ -135,7 +135,7 @@ fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> 
     let options = options(&first, Configuration::Rigid);
     let trimmed = trim(&Vehicle::new(&first, &options)?, &options.condition)?;
     let [delta_e, phi] = trimmed.control;
-    let attitude = Attitude { alpha: trimmed.state[3], delta_e, phi };
+    let attitude = Attitude { alpha: trimmed.state[ALPHA], delta_e, phi };
 
     let elastic = [attitude.alpha, delta_e];
     let second = with_fit(inputs, &file(inputs, result, elastic, &[])?)?;

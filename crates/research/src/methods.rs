@@ -8,7 +8,7 @@ use crate::cli::Compare;
 use ahv::dynamics::trim::Trim;
 use ahv::flight::{DEFAULT_TOLERANCE, method};
 use ahv::solve::{DOP853, Integrator, Method, Outcome, System};
-use ahv::vehicle::{Control, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::vehicle::{ALPHA, Control, DELTA_E, NOMINAL, PHI, Q, STATES, State, Vehicle};
 use ahv_tool::table::{row, table};
 use ahv_tool::trim::{flight, model};
 use anyhow::Result;
@@ -42,14 +42,14 @@ impl Law {
 
     /// The doublet, and feedback against a trim.
     pub fn closed(trim: &Trim) -> Self {
-        Self { alpha: trim.state[3], feedback: FEEDBACK }
+        Self { alpha: trim.state[ALPHA], feedback: FEEDBACK }
     }
 
     /// Elevator against its trim value, rad, in one of the equal communication steps that starts at a
     /// state.
     pub fn elevator(&self, step: usize, steps: usize, x: &State) -> f64 {
         let [per_alpha, per_q] = self.feedback;
-        DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[3] - self.alpha) + per_q * x[4]
+        DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[ALPHA] - self.alpha) + per_q * x[Q]
     }
 }
 
@@ -98,7 +98,7 @@ impl<'a> Problem<'a> {
         let (mut x, calls) = (self.start, Cell::new(0));
         for number in 0..self.steps {
             let elevator = self.law.elevator(number, self.steps, &x);
-            let control = [self.control[0] + elevator, self.control[1]];
+            let control = [self.control[DELTA_E] + elevator, self.control[PHI]];
             let system = Counted { vehicle: self.vehicle, control, calls: &calls };
             let time = |number: usize| FLIGHT_S * number as f64 / self.steps as f64;
             step(&system, [time(number), time(number + 1)], &mut x)?;
@@ -136,7 +136,7 @@ pub fn error(x: &State, exact: &State) -> f64 {
 /// Far from trim: in incidence, pitch rate and modes.
 fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
     let mut state = trim.state;
-    for i in RIGID - 2..vehicle.states() {
+    for i in ALPHA..vehicle.states() {
         state[i] += DISTURBANCE * NOMINAL[i];
     }
     Trim { state, ..*trim }

@@ -14,7 +14,7 @@ use ahv::air::strip_theory::{StripIntegrals, elastic_derivatives};
 use ahv::data::AeroSet;
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::structure::{Beam, FLEXIBLE, Modes, Shape};
-use ahv::vehicle::{Configuration, Vehicle, VehicleOptions, structure};
+use ahv::vehicle::{ALPHA, Configuration, Vehicle, VehicleOptions, structure};
 use ahv_research::shock_expansion::elastic::{COMPARED, deviation};
 use ahv_research::shock_expansion::stream::Stream;
 use ahv_research::shock_expansion::{Attitude, ShockExpansion};
@@ -33,7 +33,7 @@ fn trimmed(configuration: Configuration) -> (Vehicle, Trim, Attitude) {
     let vehicle = Vehicle::new(&data(), &options).unwrap();
     let trim = trim(&vehicle, &options.condition).unwrap();
     let [delta_e, phi] = trim.control;
-    let attitude = Attitude { alpha: trim.state[3], delta_e, phi };
+    let attitude = Attitude { alpha: trim.state[ALPHA], delta_e, phi };
     (vehicle, trim, attitude)
 }
 

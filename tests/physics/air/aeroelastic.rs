@@ -9,7 +9,10 @@ use ahv::air::curve_fits::{
 };
 use ahv::data::AeroSet;
 use ahv::structure::{MODES, Modes};
-use ahv::vehicle::{Configuration, Factors, GUSTS, RIGID, Vehicle, VehicleOptions, structure};
+use ahv::vehicle::{
+    ALPHA, Configuration, Factors, GAMMA, GUSTS, Q, V, Vehicle, VehicleOptions, eta, eta_dot,
+    structure,
+};
 
 #[test]
 fn verif_a_rigid_rotation_is_an_incidence() {
@@ -48,19 +51,19 @@ fn verif_rigid_motions_act_in_the_published_fits_as_incidence_does() {
         vehicle.airframe.stiffness = [[0.0; MODES]; MODES];
         vehicle.airframe.damping = [[0.0; MODES]; MODES];
         let mut x = options(Configuration::Rigid).condition.start(&vehicle.atmosphere);
-        (x[2], x[3], x[4]) = (0.01, 0.03, 0.02);
+        (x[GAMMA], x[ALPHA], x[Q]) = (0.01, 0.03, 0.02);
         let (turned, up, nose_down) = (0.011, 4.0, 0.6);
         let mut moved = x;
-        moved[RIGID + 2 * PITCH] = turned;
-        moved[RIGID + 2 * HEAVE + 1] = up;
-        moved[RIGID + 2 * PITCH + 1] = nose_down;
+        moved[eta(PITCH)] = turned;
+        moved[eta_dot(HEAVE)] = up;
+        moved[eta_dot(PITCH)] = nose_down;
         let mut inclined = x;
-        inclined[3] -= turned + (up + nose_down * shift) / x[0];
+        inclined[ALPHA] -= turned + (up + nose_down * shift) / x[V];
         let shown = [&moved, &inclined].map(|x| {
             let (rates, outputs) = vehicle.derivatives_and_outputs(x, &[0.1, 0.4], [0.0; GUSTS]);
             let loads = outputs.loads;
             let arm = vehicle.airframe.mass_centre - vehicle.aero.moment_centre;
-            let modal = [0, 1, 2].map(|mode| rates[RIGID + 2 * mode + 1]);
+            let modal = [0, 1, 2].map(|mode| rates[eta_dot(mode)]);
             ([loads.lift, loads.drag, loads.thrust, loads.moment - loads.normal * arm], modal)
         });
         for (a, b) in shown[0].0.into_iter().zip(shown[1].0) {

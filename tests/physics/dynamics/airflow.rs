@@ -3,7 +3,9 @@
 use crate::model::{builds, data, deviation, flight_with, vehicle};
 use ahv::flight::Flight;
 use ahv::solve::{Dual, Scalar};
-use ahv::vehicle::{Condition, Configuration, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::vehicle::{
+    ALPHA, Condition, Configuration, GAMMA, H, NOMINAL, RIGID_STATES, STATES, State, V, Vehicle,
+};
 
 /// Forces turned from one pair of axes into another, over g: a few roundings.
 const TURNED: f64 = 1e-12;
@@ -23,10 +25,10 @@ const STILL: [f64; 2] = [0.0; 2];
 
 /// Acceleration in earth axes, forward and up, without gravity and the earth's curvature, m/s^2.
 fn specific_force(vehicle: &Vehicle, x: &State, rates: &State) -> [f64; 2] {
-    let (gravity, distance) = vehicle.atmosphere.gravity(x[1]);
-    let (sin, cos) = x[2].sin_cos();
-    let along = rates[0] + gravity * sin;
-    let across = x[0] * rates[2] + (gravity - x[0] * x[0] / distance) * cos;
+    let (gravity, distance) = vehicle.atmosphere.gravity(x[H]);
+    let (sin, cos) = x[GAMMA].sin_cos();
+    let along = rates[V] + gravity * sin;
+    let across = x[V] * rates[GAMMA] + (gravity - x[V] * x[V] / distance) * cos;
     [along * cos - across * sin, along * sin + across * cos]
 }
 
@@ -37,11 +39,11 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
         let vehicle = Vehicle::new(&data(), &options).unwrap();
         let x = climbing(&vehicle);
         for gust in [[-80.0, 0.0], [-3.0, 20.0], [1e-9, 0.0], [25.0, -60.0], [0.0, 90.0]] {
-            let ahead = x[0] * x[2].cos() - gust[1];
-            let up = x[0] * x[2].sin() - gust[0];
+            let ahead = x[V] * x[GAMMA].cos() - gust[1];
+            let up = x[V] * x[GAMMA].sin() - gust[0];
             let mut still = x;
-            (still[0], still[2]) = (ahead.hypot(up), up.atan2(ahead));
-            still[3] = x[3] + x[2] - still[2];
+            (still[V], still[GAMMA]) = (ahead.hypot(up), up.atan2(ahead));
+            still[ALPHA] = x[ALPHA] + x[GAMMA] - still[GAMMA];
 
             let moving = vehicle.derivatives(&x, &CONTROL, gust);
             let seen = vehicle.derivatives(&still, &CONTROL, STILL);
@@ -50,7 +52,7 @@ fn verif_moving_air_is_still_air_seen_by_a_moving_observer() {
             for (a, b) in forces[0].into_iter().zip(forces[1]) {
                 assert!(deviation(a, b, 10.0) < TURNED, "{gust:?} m/s: {forces:?}");
             }
-            for i in std::iter::once(4).chain(RIGID..vehicle.states()) {
+            for i in std::iter::once(4).chain(RIGID_STATES..vehicle.states()) {
                 assert!(deviation(moving[i], seen[i], 10.0) < TURNED, "{gust:?} m/s, state {i}");
             }
             let [a, b] = [(&x, gust), (&still, STILL)]
@@ -102,11 +104,11 @@ fn verif_the_envelope_is_that_of_the_incidence_to_the_moving_air() {
         flight.set_input(W_GUST, gust);
         flight
     };
-    let up = |flight: &mut Flight| flight.advance(0.01).map(|()| flight.state()[2]);
+    let up = |flight: &mut Flight| flight.advance(0.01).map(|()| flight.state()[GAMMA]);
     assert!(up(&mut gusty(30.0, 0.0)).unwrap() > up(&mut gusty(0.0, 0.0)).unwrap());
     // 10 degrees of incidence end the curve fits: here from the first instant on.
     let mut flight = gusty(150.0, 0.1);
     let error = flight.advance(0.01).unwrap_err().to_string();
-    assert!(error.contains("alpha"), "{error}");
+    assert!(error.contains("incidence"), "{error}");
     assert_eq!(flight.time(), 0.0);
 }

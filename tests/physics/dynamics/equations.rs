@@ -9,7 +9,9 @@ use ahv::dynamics::trim::trim;
 use ahv::error::{Error, LimitedKind};
 use ahv::flight::Inputs;
 use ahv::solve::{Dual, Scalar};
-use ahv::vehicle::{CONTROLS, Condition, Configuration, NOMINAL, STATES, State, Vehicle};
+use ahv::vehicle::{
+    ALPHA, CONTROLS, Condition, Configuration, GAMMA, H, NOMINAL, Q, STATES, State, V, Vehicle,
+};
 use proptest::prelude::*;
 
 /// Accelerations over g that count as none: a few hundred roundings.
@@ -54,8 +56,8 @@ fn verif_a_climb_can_be_trimmed_too() {
     let condition = Condition { mach: 8.0, altitude: 26_000.0, gamma: 0.02 };
     let trimmed = trim(&vehicle, &condition).unwrap();
     let rates = vehicle.derivatives(&trimmed.state, &trimmed.control, [0.0; 2]);
-    assert!(deviation(rates[1], trimmed.state[0] * 0.02_f64.sin(), 1.0) < STEADY);
-    assert!(rates[0].abs() < STEADY * 10.0 && rates[2].abs() < STEADY);
+    assert!(deviation(rates[H], trimmed.state[V] * 0.02_f64.sin(), 1.0) < STEADY);
+    assert!(rates[V].abs() < STEADY * 10.0 && rates[GAMMA].abs() < STEADY);
 }
 
 #[test]
@@ -72,7 +74,10 @@ fn verif_an_impossible_trim_names_the_limit() {
     // Inside the envelope, but no thrust climbs that steeply.
     let steep = Condition { mach: 8.0, altitude: 25_900.0, gamma: 1.2 };
     let error = trim(&vehicle(Configuration::Rigid), &steep).unwrap_err().to_string();
-    assert!(error.contains("phi = ") && error.contains("gamma0 = 1.2"), "{error}");
+    assert!(
+        error.contains("fuel ratio = ") && error.contains("flight-path angle 1.2 rad"),
+        "{error}"
+    );
     // And where the air is too thin for any incidence there is no solution at all.
     let thin = Condition { mach: 6.2, altitude: 41_000.0, gamma: 0.0 };
     let error = trim(&vehicle_with(AeroSet::Parker2007, Configuration::Rigid), &thin)
@@ -91,7 +96,7 @@ proptest! {
             let vehicle = Vehicle::new(&data(), &options).unwrap();
             let x = disturbed(&vehicle, scale);
             let rates = vehicle.derivatives(&x, &[0.1, 0.3], [0.0; 2]);
-            prop_assert!((rates[2] + rates[3] - x[4]).abs() <= 4.0 * f64::EPSILON);
+            prop_assert!((rates[GAMMA] + rates[ALPHA] - x[Q]).abs() <= 4.0 * f64::EPSILON);
             prop_assert!(rates[vehicle.states()..].iter().all(|&rate| rate == 0.0));
         }
     }

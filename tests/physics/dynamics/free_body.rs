@@ -10,8 +10,8 @@ use crate::model::{AERO_SETS, assert_close, data, options};
 use ahv::data::Data;
 use ahv::structure::MODES;
 use ahv::vehicle::{
-    Body, Configuration, Factors, GUSTS, RIGID, STATES, State, Vehicle, VehicleDefinition,
-    VehicleOptions,
+    ALPHA, Body, Configuration, Factors, GAMMA, GUSTS, H, Q, STATES, State, V, Vehicle,
+    VehicleDefinition, VehicleOptions, eta, eta_dot,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -63,19 +63,19 @@ impl Case {
         Self { vehicle, beam, books, shapes, gravity }
     }
 
-    /// Displacement by coordinates from a place among the states.
-    fn sum(&self, x: &State, first: usize) -> DVector<f64> {
+    /// Displacement by the modal coordinates, or by their rates.
+    fn sum(&self, x: &State, component: fn(usize) -> usize) -> DVector<f64> {
         let start = DVector::zeros(self.beam.unknowns());
         let shapes = self.shapes.iter().enumerate();
-        shapes.fold(start, |sum, (i, shape)| sum + shape * x[first + 2 * i])
+        shapes.fold(start, |sum, (i, shape)| sum + shape * x[component(i)])
     }
 
     /// Momentum across the body and angular momentum against the mass centre, nose down, kg m/s and
     /// kg m^2/s, and energy, J, all per metre of width; then what the numbers are small against.
     fn kept(&self, x: &State) -> [[f64; 2]; 3] {
         let (beam, total) = (&self.beam, self.books.total);
-        let u = self.sum(x, RIGID);
-        let v = self.sum(x, RIGID + 1) + beam.rigid(0.0, -x[4], total.centre);
+        let u = self.sum(x, eta);
+        let v = self.sum(x, eta_dot) + beam.rigid(0.0, -x[Q], total.centre);
         let momenta = beam.mass_times(&v);
         let kinetic = 0.5 * v.dot(&momenta);
         let [up, turn] = [[1.0, 0.0], [0.0, 1.0]]
@@ -94,17 +94,17 @@ impl Case {
     /// Angular momentum about the earth's centre and energy of the flight, per mass.
     fn orbit(&self, data: &Data, x: &State) -> [f64; 2] {
         let earth = &data.earth.earth;
-        let distance = earth.radius_m.value + x[1];
+        let distance = earth.radius_m.value + x[H];
         let potential = -earth.gravity_m_per_s2.value * earth.radius_m.value.powi(2) / distance;
-        [distance * x[0] * x[2].cos(), 0.5 * x[0] * x[0] + potential]
+        [distance * x[V] * x[GAMMA].cos(), 0.5 * x[V] * x[V] + potential]
     }
 
     fn start(&self, options: &VehicleOptions) -> State {
         let mut x = options.condition.start(&self.vehicle.atmosphere);
-        (x[2], x[3], x[4]) = (0.01, 0.02, PITCH_RATE);
+        (x[GAMMA], x[ALPHA], x[Q]) = (0.01, 0.02, PITCH_RATE);
         x[STATES - 1] = self.vehicle.fuel;
         for i in 0..MODES {
-            (x[RIGID + 2 * i], x[RIGID + 2 * i + 1]) = (ETA[i], ETA_DOT[i]);
+            (x[eta(i)], x[eta_dot(i)]) = (ETA[i], ETA_DOT[i]);
         }
         x
     }
@@ -113,7 +113,7 @@ impl Case {
     fn taken(&self, relative: &[[f64; MODES]; 2], x: &State) -> f64 {
         let tanks = relative.iter().zip(&self.beam.liquids);
         let power = tanks.map(|(relative, liquid)| {
-            let rate: f64 = (0..MODES).map(|i| relative[i] * x[RIGID + 2 * i + 1]).sum();
+            let rate: f64 = (0..MODES).map(|i| relative[i] * x[eta_dot(i)]).sum();
             liquid.damper * rate * rate
         });
         power.sum()

@@ -12,7 +12,7 @@ use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::error::Error;
 use ahv::structure::MODES;
-use ahv::vehicle::{Configuration, Factors, RIGID, Vehicle, VehicleOptions};
+use ahv::vehicle::{ALPHA, Configuration, DELTA_E, Factors, PHI, Vehicle, VehicleOptions, eta};
 use nalgebra::Complex;
 
 const FUEL_FRACTIONS: [f64; 4] = [0.05, 0.25, 0.5, 1.0];
@@ -192,8 +192,8 @@ fn bending_poles(
     let beam = Beam::new(&data.vehicle, &explicit.books, ELEMENTS, 1.0);
     // The point of linearisation is the library's.
     let per_eta = vehicle.airframe.elastic.per.map(|[per_eta, _]| per_eta[INCIDENCE]);
-    let turned: f64 = (0..MODES).map(|k| per_eta[k] * trim.state[RIGID + 2 * k]).sum();
-    let steady = [trim.state[3] + turned, trim.control[0], trim.control[1]];
+    let turned: f64 = (0..MODES).map(|k| per_eta[k] * trim.state[eta(k)]).sum();
+    let steady = [trim.state[ALPHA] + turned, trim.control[DELTA_E], trim.control[PHI]];
     let mut set = data.aero(options.aero).clone();
     set.reference.elastic_scale.value *= options.factors.elastic;
     let rate = options.factors.pitch_rate;
@@ -254,8 +254,8 @@ fn verif_a_stiff_vehicle_is_trimmed_as_a_rigid_one() {
         let [delta_e, phi] = [0, 1].map(|k| trim.control[k] - steady.control[k]);
         // Liquid that lies askew, by millimetres at 2 rad/s, turns the mean axes, not the body.
         let per = vehicle.airframe.elastic.per;
-        let turned = (0..MODES).map(|k| per[k][0][INCIDENCE] * trim.state[RIGID + 2 * k]);
-        let alpha = trim.state[3] + turned.sum::<f64>();
+        let turned = (0..MODES).map(|k| per[k][0][INCIDENCE] * trim.state[eta(k)]);
+        let alpha = trim.state[ALPHA] + turned.sum::<f64>();
         let off = [alpha - steady.alpha, delta_e, phi];
         assert!(off.iter().all(|off| off.abs() < SAME_TRIM), "{}: {off:?}", name(options));
     });

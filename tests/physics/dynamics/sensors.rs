@@ -6,8 +6,8 @@ use crate::model::{CONFIGURATIONS, data, options};
 use ahv::dynamics::Outputs;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{
-    Body, Condition, Configuration, Gust, NOMINAL, RIGID, STATES, State, Vehicle,
-    VehicleDefinition, VehicleOptions,
+    ALPHA, Body, Condition, Configuration, GAMMA, Gust, H, NOMINAL, Q, STATES, State, V, Vehicle,
+    VehicleDefinition, VehicleOptions, eta,
 };
 
 const CONTROL: [f64; 2] = [0.1, 0.3];
@@ -61,8 +61,8 @@ impl Case {
         let condition = Condition { mach: 8.2, altitude: 26_500.0, gamma: 0.03 };
         let start = condition.start(&self.vehicle.atmosphere);
         let mut x: State = std::array::from_fn(|i| start[i] + 2.0 * NOMINAL[i]);
-        x[4] = 0.08;
-        x[RIGID + 2 * self.vehicle.modes..].fill(0.0);
+        x[Q] = 0.08;
+        x[eta(self.vehicle.modes)..].fill(0.0);
         x[STATES - 1] = 0.8 * self.vehicle.fuel;
         x
     }
@@ -71,7 +71,7 @@ impl Case {
     fn bent(&self, x: &State, node: usize) -> [f64; 2] {
         [0, 1].map(|entry| {
             let modes = self.shapes.iter().enumerate();
-            modes.map(|(i, shape)| shape[2 * node + entry] * x[RIGID + 2 * i]).sum()
+            modes.map(|(i, shape)| shape[2 * node + entry] * x[eta(i)]).sum()
         })
     }
 
@@ -83,9 +83,9 @@ impl Case {
             None => self.vehicle.airframe.mass_centre,
             Some(burn) => burn.airframe(x[STATES - 1]).mass_centre,
         };
-        let (sin, cos) = (x[2] + x[3]).sin_cos();
+        let (sin, cos) = (x[GAMMA] + x[ALPHA]).sin_cos();
         let ahead = centre - station;
-        [at[0] + ahead * cos - w * sin, at[1] + ahead * sin + w * cos, x[2] + x[3] - slope]
+        [at[0] + ahead * cos - w * sin, at[1] + ahead * sin + w * cos, x[GAMMA] + x[ALPHA] - slope]
     }
 
     /// Both sensors before, at and after the start, in the plane that is level there: the earth's
@@ -94,11 +94,11 @@ impl Case {
         let rates = |x: &[f64; STATES + 2]| {
             let state: State = std::array::from_fn(|i| x[i]);
             let rates = self.vehicle.derivatives(&state, &CONTROL, gust);
-            let (sin, cos) = state[2].sin_cos();
+            let (sin, cos) = state[GAMMA].sin_cos();
             std::array::from_fn(|i| match i {
                 // Beside what goes straight on: that would cost digits.
-                STATES => state[0] * cos - start[0] * start[2].cos(),
-                i if i > STATES => state[0] * sin - start[0] * start[2].sin(),
+                STATES => state[V] * cos - start[V] * start[GAMMA].cos(),
+                i if i > STATES => state[V] * sin - start[V] * start[GAMMA].sin(),
                 i => rates[i],
             })
         };
@@ -131,7 +131,7 @@ impl Case {
         let rate = |sensor: usize, k: usize| {
             let pairs = FIRST.iter().zip(1..);
             let rate = pairs.map(|(c, n)| c * (of(sensor, k, n) - of(sensor, k, -n))).sum::<f64>();
-            let straight = [start[0] * start[2].cos(), start[0] * start[2].sin(), 0.0];
+            let straight = [start[V] * start[GAMMA].cos(), start[V] * start[GAMMA].sin(), 0.0];
             rate / SPACING_S + straight[k]
         };
         let acceleration = |k: usize| {
@@ -139,10 +139,10 @@ impl Case {
             let sum: f64 = pairs.map(|(c, n)| c * (of(0, k, n) + of(0, k, -n))).sum();
             (sum + SECOND[0] * of(0, k, 0)) / (SPACING_S * SPACING_S)
         };
-        let (gravity, distance) = self.vehicle.atmosphere.gravity(start[1]);
-        let (sin, cos) = start[2].sin_cos();
+        let (gravity, distance) = self.vehicle.atmosphere.gravity(start[H]);
+        let (sin, cos) = start[GAMMA].sin_cos();
         // Gravity and curvature of eq. (3), along and across the path of the mass centre.
-        let (along, across) = (gravity * sin, (gravity - start[0] * start[0] / distance) * cos);
+        let (along, across) = (gravity * sin, (gravity - start[V] * start[V] / distance) * cos);
         let forward = acceleration(0) + along * cos - across * sin;
         let up = acceleration(1) + along * sin + across * cos;
         let theta = of(0, 2, 0);

@@ -4,7 +4,7 @@ use crate::model::{data, flight, options, setup};
 use ahv::error::Error;
 use ahv::flight::Setup;
 use ahv::fmu::Message;
-use ahv::vehicle::{Body, Configuration, Vehicle, VehicleDefinition};
+use ahv::vehicle::{Body, Configuration, DELTA_E, Vehicle, VehicleDefinition};
 use fmi_model::table::find;
 
 #[test]
@@ -45,7 +45,7 @@ fn verif_at_the_mass_centre_of_a_rigid_body_sensors_show_the_states() {
     ])
     .fly()
     .unwrap();
-    flight.set_input(0, 0.02);
+    flight.set_input(DELTA_E, 0.02);
     let loads = flight.evaluate().unwrap().outputs.loads;
     let mut shown = |name: &str| crate::model::shown(&mut flight, name);
     let weight = shown("n_z") / loads.normal;

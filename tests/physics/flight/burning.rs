@@ -5,7 +5,7 @@ use ahv::data::AeroSet;
 use ahv::error::Error;
 use ahv::flight::Flight;
 use ahv::structure::MODES;
-use ahv::vehicle::{Configuration, FUEL, FuelTable, GUSTS};
+use ahv::vehicle::{Configuration, DELTA_E, FUEL, FuelTable, GUSTS, PHI};
 
 /// Fuel burnt against the integral of its flow, over what was burnt.
 const BOOKS: f64 = 1e-9;
@@ -49,8 +49,8 @@ fn verif_the_books_of_mass_balance() {
     for configuration in CONFIGURATIONS {
         let mut flight = burning(|p| p.options.configuration = configuration);
         let start = flight.state()[FUEL];
-        flight.set_input(0, 0.002);
-        flight.set_input(1, 0.3);
+        flight.set_input(DELTA_E, 0.002);
+        flight.set_input(PHI, 0.3);
         let mut flow = vec![-fuel_rate(&mut flight)];
         for i in 1..=steps {
             flight.advance(step * f64::from(i)).unwrap();
@@ -78,8 +78,8 @@ fn verif_without_burning_no_fuel_goes_and_an_idle_engine_takes_none() {
     still.advance(0.5).unwrap();
     assert_eq!(still.state()[FUEL], start[FUEL]);
     let mut idle = burning(|p| p.input_mode = ahv::flight::InputMode::Absolute);
-    let delta_e = idle.trim().control[0];
-    idle.set_input(0, delta_e);
+    let delta_e = idle.trim().control[DELTA_E];
+    idle.set_input(DELTA_E, delta_e);
     assert_eq!(fuel_rate(&mut idle), 0.0);
     idle.advance(0.3).unwrap();
     assert_eq!(idle.state()[FUEL], start[FUEL]);

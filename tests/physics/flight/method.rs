@@ -9,7 +9,10 @@ use ahv::solve::{
     Attempt, DOP853, Decoupling, Exponential, Integrator, Method, Outcome, System, Trial,
 };
 use ahv::structure::MODES;
-use ahv::vehicle::{Configuration, Control, GUSTS, Gust, NOMINAL, RIGID, STATES, State, Vehicle};
+use ahv::vehicle::{
+    ALPHA, Configuration, Control, DELTA_E, GAMMA, GUSTS, Gust, NOMINAL, RIGID_STATES, STATES,
+    State, Vehicle,
+};
 use proptest::prelude::*;
 
 /// How well the coordinates go there and back, and L meets the Jacobian, in typical sizes.
@@ -21,9 +24,9 @@ fn verif_the_coordinates_decouple_every_vehicle() {
         let flight = flight_with(|parameters| parameters.options = options);
         let (vehicle, trim) = (flight.vehicle(), flight.trim());
         let jacobian = LinearModel::new(vehicle, &trim.state, &trim.control).a;
-        let slow = RIGID - 2;
+        let slow = ALPHA;
         let decoupling =
-            Decoupling::<STATES, { RIGID - 2 }, { 2 + 2 * MODES }>::new(&jacobian, &NOMINAL);
+            Decoupling::<STATES, { ALPHA }, { 2 + 2 * MODES }>::new(&jacobian, &NOMINAL);
         for j in slow..vehicle.states() {
             let mut x = [0.0; STATES];
             x[j] = NOMINAL[j];
@@ -118,10 +121,10 @@ proptest! {
         let vehicle = Vehicle::new(&data(), &parameters.options).unwrap();
         let trim = ahv::dynamics::trim::trim(&vehicle, &parameters.options.condition).unwrap();
         let mut start = trim.state;
-        for i in RIGID - 2..vehicle.states() {
-            start[i] += disturbance[i + 2 - RIGID] * NOMINAL[i];
+        for i in ALPHA..vehicle.states() {
+            start[i] += disturbance[i + 2 - RIGID_STATES] * NOMINAL[i];
         }
-        let control = [trim.control[0] + controls[0], controls[1]];
+        let control = [trim.control[DELTA_E] + controls[0], controls[1]];
         prop_assume!(vehicle.holds(&start, &control, gust));
         let system = Held(&vehicle, control, gust);
         let tolerance = 10.0_f64.powi(-digits);
@@ -143,7 +146,7 @@ proptest! {
     ) {
         // Functions of the step's length are kept between steps: they must not decide anything.
         let mut one = flight(Configuration::SloshBeam);
-        one.set_input(0, elevator);
+        one.set_input(DELTA_E, elevator);
         let mut time = 0.0;
         for length in lengths {
             time += length;
@@ -181,8 +184,8 @@ fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
     let vehicle = Vehicle::new(&data(), &parameters.options).unwrap();
     parameters.options.condition.altitude = 32_150.0;
     let mut start = parameters.options.condition.start(&vehicle.atmosphere);
-    start[2] = 0.03;
-    start[3] = 0.02;
+    start[GAMMA] = 0.03;
+    start[ALPHA] = 0.02;
     let trim = Trim { state: start, control: [0.1, 0.3] };
     let system = Held(&vehicle, trim.control, [0.0; GUSTS]);
     for steps in [1, 40] {

@@ -4,7 +4,7 @@ use crate::model::{AERO_SETS, CONFIGURATIONS, data, setup};
 use ahv::error::{Error, StartCause};
 use ahv::flight::{Flight, INPUTS};
 use ahv::fmu::Message;
-use ahv::vehicle::{Configuration, RIGID};
+use ahv::vehicle::{Configuration, RIGID_STATES};
 
 /// Of sums over five modes.
 const ROUNDING: f64 = 1e-12;
@@ -122,7 +122,7 @@ fn verif_without_offsets_the_start_is_the_trim_bit_for_bit() {
     for start in starts() {
         let flight = flight(&start);
         assert_eq!(*flight.state(), flight.trim().state);
-        assert!(flight.state()[RIGID..].iter().any(|eta| *eta != 0.0));
+        assert!(flight.state()[RIGID_STATES..].iter().any(|eta| *eta != 0.0));
     }
 }
 

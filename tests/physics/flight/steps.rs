@@ -3,11 +3,11 @@
 use crate::model::{CONFIGURATIONS, distance, flight, setup};
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::vehicle::{Configuration, State};
+use ahv::vehicle::{Configuration, DELTA_E, State};
 
 /// Flies the default doublet-like input over the given communication points up to 0.5 s.
 fn fly(mut flight: Flight, points: impl Iterator<Item = f64>) -> State {
-    flight.set_input(0, 2e-3);
+    flight.set_input(DELTA_E, 2e-3);
     for t in points {
         flight.advance(t).expect("a small elevator step stays in the envelope");
         assert_eq!(flight.time(), t);
@@ -48,7 +48,7 @@ fn verif_a_million_steps_do_not_drift() {
 fn verif_a_late_start_costs_no_digits() {
     let fly = |start: f64| {
         let mut flight = setup(&[]).start(start, 1e-8).unwrap();
-        flight.set_input(0, 2e-3);
+        flight.set_input(DELTA_E, 2e-3);
         flight.advance(start + 0.5).unwrap();
         *flight.state()
     };
@@ -63,7 +63,7 @@ fn verif_a_late_start_costs_no_digits() {
 fn verif_a_long_interval_that_leaves_the_envelope_says_so() {
     for length in [1e2, 1e4, 1e8] {
         let mut flight = flight(Configuration::SloshBeam);
-        flight.set_input(0, 2e-3);
+        flight.set_input(DELTA_E, 2e-3);
         let error = flight.advance(length).unwrap_err();
         assert!(matches!(error, Error::Envelope { .. }), "{length} s: {error}");
         assert!(flight.time() < 20.0);

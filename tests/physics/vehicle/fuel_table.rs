@@ -7,8 +7,8 @@ use ahv::dynamics::trim::trim;
 use ahv::solve::{Dual, Scalar};
 use ahv::structure::MODES;
 use ahv::vehicle::{
-    Airframe, Body, COEFFICIENTS, Configuration, FUEL, Factors, GUSTS, NOMINAL, RIGID, STATES,
-    Vehicle, VehicleDefinition, VehicleOptions,
+    Airframe, Body, COEFFICIENTS, Configuration, FUEL, Factors, GUSTS, NOMINAL, RIGID_STATES,
+    STATES, Vehicle, VehicleDefinition, VehicleOptions,
 };
 use nalgebra::{Matrix5, SymmetricEigen};
 
@@ -176,7 +176,7 @@ fn verif_a_slow_burn_is_the_family_of_vehicles_at_rest() {
                 let [one, other] = [&burning, &level].map(|v| trim(v, &full.condition).unwrap());
                 let what = format!("{configuration:?} {aero:?} at {fuel_fraction}");
                 assert_close(&what, one.state[FUEL], other.state[FUEL], SAME);
-                let pairs = one.state.iter().zip(other.state).zip(NOMINAL).take(RIGID);
+                let pairs = one.state.iter().zip(other.state).zip(NOMINAL).take(RIGID_STATES);
                 for ((one, other), nominal) in pairs {
                     assert!((one - other).abs() < 1e-7 * nominal, "{what}");
                 }

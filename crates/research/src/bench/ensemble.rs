@@ -4,6 +4,7 @@ use super::Effort;
 use super::report::Report;
 use super::timing::Spread;
 use ahv::flight::Flight;
+use ahv::vehicle::DELTA_E;
 use ahv_tool::cli::Set;
 use ahv_tool::trim::{flight, model};
 use anyhow::{Result, anyhow};
@@ -19,7 +20,7 @@ const RUNS: usize = 3;
 
 /// Flies one of the flights; each has an elevator of its own.
 fn fly(mut flight: Flight, number: usize, flights: usize) -> Result<(), ahv::error::Error> {
-    flight.set_input(0, LARGEST * (2.0 * number as f64 / flights as f64 - 1.0));
+    flight.set_input(DELTA_E, LARGEST * (2.0 * number as f64 / flights as f64 - 1.0));
     for step in 1..=STEPS {
         flight.advance(STEP_S * f64::from(step))?;
     }

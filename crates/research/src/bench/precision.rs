@@ -6,7 +6,7 @@ use super::timing::{Spread, seconds};
 use super::{other_integrators, rust_crates};
 use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
 use ahv::flight::{DEFAULT_TOLERANCE, Flight, Setup, method};
-use ahv::vehicle::State;
+use ahv::vehicle::{DELTA_E, State};
 use ahv_tool::python::python;
 use anyhow::Result;
 use serde::Serialize;
@@ -34,7 +34,7 @@ pub struct Point {
 /// What `cargo ahv fly` does, without the C functions.
 pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::error::Error> {
     for step in 0..steps {
-        flight.set_input(0, law.elevator(step, steps, flight.state()));
+        flight.set_input(DELTA_E, law.elevator(step, steps, flight.state()));
         flight.advance(FLIGHT_S * (step + 1) as f64 / steps as f64)?;
     }
     Ok(*flight.state())

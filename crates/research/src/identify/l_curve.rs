@@ -7,7 +7,7 @@ use super::numbers::{MOVABLE, Origin, hardly_moves};
 use ahv::data::{AeroData, Data};
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::flight::Parameters;
-use ahv::vehicle::{Vehicle, VehicleDefinition, VehicleOptions};
+use ahv::vehicle::{ALPHA, DELTA_E, PHI, Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Context, Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 
@@ -108,7 +108,12 @@ impl Model {
     /// Incidence (rad), elevator (rad) and fuel ratio in trim, column by column.
     pub fn trims(&self, set: &AeroData) -> Option<Vec<[f64; 3]>> {
         let columns = self.trimmed(set)?;
-        Some(columns.iter().map(|(_, t)| [t.state[3], t.control[0], t.control[1]]).collect())
+        Some(
+            columns
+                .iter()
+                .map(|(_, t)| [t.state[ALPHA], t.control[DELTA_E], t.control[PHI]])
+                .collect(),
+        )
     }
 
     /// Errors over wanted accuracies of the cells that have one, then the excess of the trims.
@@ -122,7 +127,7 @@ impl Model {
         let (mut found, mut room) = (Vec::new(), Vec::new());
         for (vehicle, trim) in &columns {
             found.extend(values(vehicle, trim)?);
-            let trimmed = [trim.state[3], trim.control[0], trim.control[1]];
+            let trimmed = [trim.state[ALPHA], trim.control[DELTA_E], trim.control[PHI]];
             room.extend(trimmed.into_iter().zip(ranges).map(|(value, range)| excess(value, range)));
         }
         let errors = self.cells.iter().zip(found);

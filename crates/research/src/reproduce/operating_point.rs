@@ -5,7 +5,7 @@ use ahv::data::Data;
 use ahv::dynamics::linear::{LinearModel, OUTPUT_STATES};
 use ahv::dynamics::trim::{Trim, trim};
 use ahv::structure::{FLEXIBLE, RigidMotion, SLOSH};
-use ahv::vehicle::{Body, RIGID, Vehicle, VehicleDefinition, VehicleOptions};
+use ahv::vehicle::{Body, V, Vehicle, VehicleDefinition, VehicleOptions, eta, eta_dot};
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 
@@ -63,7 +63,7 @@ impl OperatingPoint {
 
     /// Poles and zeros if the slosh modes are left out of the equations of flight.
     pub fn without_slosh(&self) -> [Vec<Root>; 2] {
-        let kept = self.linear.a.nrows().min(RIGID + 2 * FLEXIBLE);
+        let kept = self.linear.a.nrows().min(eta(FLEXIBLE));
         let linear = LinearModel {
             a: self.linear.a.view((0, 0), (kept, kept)).into_owned(),
             b: self.linear.b.rows(0, kept).into_owned(),
@@ -117,7 +117,7 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
     let mut matrix = DMatrix::zeros(bent + elements + sloshing, vehicle.states());
     let mass = vehicle.airframe.mass.sqrt();
     matrix[(0, 0)] = mass;
-    matrix[(1, 2)] = mass * trim.state[0];
+    matrix[(1, 2)] = mass * trim.state[V];
     matrix[(2, 4)] = vehicle.airframe.inertia.sqrt();
     let motion = RigidMotion::of(beam);
     // The root of [[mass, first], [first, inertia]].
@@ -125,7 +125,7 @@ fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
     let coupling = beam.correction.first / translation;
     let rotation = (motion.inertia + beam.correction.second - coupling * coupling).sqrt();
     for (i, shape) in modes.shape.iter().enumerate() {
-        let rate = RIGID + 2 * i + 1;
+        let rate = eta_dot(i);
         let [moved, turned] = motion.part(&shape.w, &shape.slope);
         matrix[(RIGID_ROWS, rate)] = translation * moved + coupling * turned;
         matrix[(RIGID_ROWS + 1, rate)] = rotation * turned;
@@ -163,7 +163,7 @@ mod tests {
             let energy = metric.tr_mul(&metric);
             for i in 0..modes.count {
                 for k in 0..modes.count {
-                    let entry = energy[(RIGID + 2 * i + 1, RIGID + 2 * k + 1)];
+                    let entry = energy[(eta_dot(i), eta_dot(k))];
                     let scale = (modes.modal_mass[i] * modes.modal_mass[k]).sqrt();
                     let expected = f64::from(i == k);
                     assert!((entry / scale - expected).abs() < 1e-3, "{i}, {k}: {entry}");

@@ -9,7 +9,7 @@ use ahv::data::{AeroData, AeroSet, Data};
 use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::structure::FLEXIBLE;
-use ahv::vehicle::{Configuration, Vehicle, VehicleDefinition, VehicleOptions};
+use ahv::vehicle::{Configuration, H, V, Vehicle, VehicleDefinition, VehicleOptions};
 use anyhow::{Result, anyhow};
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
@@ -211,7 +211,7 @@ impl Origin {
         let lift_q = lift_coefficient(
             &rigid.vehicle,
             &data.parker2007,
-            [trim.state[0], trim.state[1]],
+            [trim.state[V], trim.state[H]],
             -OUTPUT,
         );
         Ok(Self {
