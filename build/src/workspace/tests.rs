@@ -1,4 +1,4 @@
-//! Files are read with limits and written whole or not at all; the repository is found at run time.
+//! Tests: files are read with limits and written whole or not at all; the repository is found at run time.
 #![allow(clippy::disallowed_methods)]
 
 use super::*;
