@@ -36,7 +36,7 @@ const STEPS: [Step; 17] = [
         check(doc.env("RUSTDOCFLAGS", "-D warnings"))
     }),
     ("Rust tests", Always, |_| {
-        // The long fuzz has a step of its own.
+        // The long fuzz is a separate step.
         check(
             cargo()
                 .args(["test", "--workspace", "--no-fail-fast"])

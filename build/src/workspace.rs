@@ -31,7 +31,7 @@ pub fn locate() -> Result<()> {
     Ok(())
 }
 
-/// What the environment says to this tool; no result depends on it.
+/// An environment variable that no result depends on.
 #[expect(clippy::disallowed_methods, reason = "the one place that reads it")]
 pub fn variable(name: &str) -> Option<OsString> {
     env::var_os(name)

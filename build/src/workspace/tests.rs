@@ -13,7 +13,7 @@ fn names(directory: &Path) -> Vec<String> {
     names
 }
 
-/// A repository as far as the search can tell.
+/// A directory that the search accepts as a repository.
 fn repository(directory: &Path) {
     fs::create_dir_all(directory.join("build")).unwrap();
     fs::write(directory.join("Cargo.toml"), "[package]\nname = \"ahv-fmu\"\n").unwrap();
