@@ -65,7 +65,7 @@ pub struct Describe {
 #[command(after_help = "\
 Examples:
   cargo ahv package
-      build for Linux and Windows, as far as this machine is able to, and write target/ahv.fmu
+      build for Linux and, if possible, Windows, and write target/ahv.fmu
   cargo ahv package --vehicle mine.toml --coefficients my_air.toml
       the FMU of your own vehicle, target/own/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
@@ -77,7 +77,7 @@ pub struct Package {
     /// Fail if the library for Linux or Windows cannot be built
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
-    /// Build faster, for this machine and its C library only; writes target/ahv-host.fmu
+    /// Build for this machine and its C library only, which is faster; writes target/ahv-host.fmu
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
     /// Package this library instead of building one (repeatable); platforms: linux64, win64,
@@ -125,7 +125,7 @@ pub struct Fly {
     /// Fly this FMU instead of building one
     #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
-    /// Build faster, for this machine and its C library only; flies target/ahv-host.fmu
+    /// Build for this machine and its C library only, which is faster; flies target/ahv-host.fmu
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,
     #[command(flatten)]
@@ -168,11 +168,11 @@ Examples:
   cargo ahv modes --set configuration=EvenMassBeam --json
   cargo ahv modes --elements    input of crates/research/bench/modes_vs_eigsh.py")]
 pub struct Modes {
-    #[command(flatten)]
-    pub analyse: Analyse,
     /// Print the eigenproblem as JSON: beam elements and sloshing masses
     #[arg(long)]
     pub elements: bool,
+    #[command(flatten)]
+    pub analyse: Analyse,
 }
 
 /// Print poles and transmission zeros (delta_e, phi to V, gamma) in trimmed flight
