@@ -1,7 +1,7 @@
-//! Build script: which data files the library is built with, packed for quick reading.
+//! Build script: selects the data files of the library and packs them in binary form.
 //!
-//! `AHV_VEHICLE` names a file that takes the place of `vehicle.toml`, `AHV_COEFFICIENTS` one that
-//! becomes the coefficient set `own`; the options of `cargo ahv` with these names set them.
+//! `AHV_VEHICLE` names a file that replaces `vehicle.toml`, `AHV_COEFFICIENTS` one that
+//! becomes the coefficient set `own`; `cargo ahv` sets them from its options.
 
 #[path = "../src/data/files.rs"]
 #[allow(dead_code)]
@@ -50,8 +50,8 @@ fn given(variable: &str) -> Option<PathBuf> {
     env::var_os(variable).map(PathBuf::from)
 }
 
-/// Puts a file's text beside its numbers in packed form: with a parser for TOML, the library would
-/// be half as large again.
+/// Embeds the text of a file and its numbers in packed form: with a TOML parser the library would be half as
+/// large again.
 fn embed<T: Serialize + DeserializeOwned>(name: &str, file: &Path) {
     println!("cargo::rerun-if-changed={}", file.display());
     let text = fs::read_to_string(file).unwrap_or_else(|e| panic!("{}: {e}", file.display()));

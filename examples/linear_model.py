@@ -1,4 +1,4 @@
-"""A, B, C, D of the trimmed vehicle from the FMU in FMPy, exact: no step size to choose."""
+"""A, B, C, D of the trimmed vehicle from the FMU's exact directional derivatives, in FMPy."""
 
 from typing import NamedTuple
 
@@ -47,7 +47,7 @@ def linear_model(
         fmu.exitInitializationMode()
 
         def jacobian(unknowns: list[int], knowns: list[int]) -> np.ndarray:
-            """Changes of the unknowns per change of each known."""
+            """Derivatives of the unknowns with respect to each known."""
             columns = [fmu.getDirectionalDerivative(unknowns, [known], [1.0]) for known in knowns]
             return np.array(columns).T
 

@@ -1,30 +1,30 @@
-//! The C functions under stress: many random calls, and fewer under tools that watch the memory.
+//! Stress tests of the C interface: random call sequences, AddressSanitizer, valgrind.
 
 use crate::workspace::{cargo, check, target, variable, works};
 use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// Environment variable with the number of random sequences of calls.
+/// Environment variable with the number of random call sequences.
 pub const SEQUENCES_VARIABLE: &str = "AHV_FUZZ";
 
-/// Sequences where nobody says how many: a minute and a half in a release build.
+/// Default number of sequences: a minute and a half in a release build.
 const DEFAULT_SEQUENCES: &str = "100000";
-/// A memory checker slows them down ten to fifty times.
+/// Memory checkers are ten to fifty times slower.
 const SANITIZER_SEQUENCES: &str = "500";
 const VALGRIND_SEQUENCES: &str = "40";
 
-/// The only target with both tools.
+/// The only target for which both memory checkers are used.
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 
-/// A test program of the shared library: `abi`, all but what needs a process of its own.
+/// A test program of the shared library; `abi` has all tests that need no process of their own.
 fn tests(program: &str) -> Command {
     let mut command = cargo();
     command.args(["test", "--quiet", "--package", "ahv-fmu", "--test", program]);
     command
 }
 
-/// Random sequences of calls, at full speed, and what only an optimised library can do wrong.
+/// Random call sequences in a release build, and tests of faults that only optimised code has.
 pub fn fuzz() -> Result<()> {
     let wanted = variable(SEQUENCES_VARIABLE).unwrap_or_else(|| DEFAULT_SEQUENCES.into());
     check(
@@ -35,7 +35,7 @@ pub fn fuzz() -> Result<()> {
     check(tests("abi_host").args(["--release", "--", "--nocapture"]))
 }
 
-/// The run-time library of AddressSanitizer, if this toolchain brings it.
+/// The run-time library of AddressSanitizer, if the toolchain has it.
 fn sanitizer_runtime() -> Option<PathBuf> {
     let output = Command::new("rustc").args(["--print", "target-libdir"]).output().ok()?;
     let folder = String::from_utf8(output.stdout).ok()?;
@@ -47,10 +47,10 @@ fn sanitizer_runtime() -> Option<PathBuf> {
     })
 }
 
-/// AddressSanitizer and its leak check, in the library and its tests (not in the standard library).
+/// AddressSanitizer with leak check, in the library and its tests but not in the standard library.
 pub fn sanitizer() -> Result<()> {
     if sanitizer_runtime().is_none() {
-        errln!("left out: this toolchain has no AddressSanitizer");
+        errln!("skipped: this toolchain has no AddressSanitizer");
         return Ok(());
     }
     check(
@@ -60,17 +60,17 @@ pub fn sanitizer() -> Result<()> {
             // The run-time library exports functions too.
             .args(["--", "--nocapture", "--skip", "symbols::"])
             .env(SEQUENCES_VARIABLE, SANITIZER_SEQUENCES)
-            // The flag is not stable yet; the compiler is the same.
+            // The stable compiler accepts the unstable flag only with this.
             .env("RUSTC_BOOTSTRAP", "1")
-            // The shared library finds the run-time library's functions in the test program.
+            // The shared library takes the sanitizer's functions from the test program.
             .env("RUSTFLAGS", "-Zsanitizer=address -Clink-arg=-Wl,--export-dynamic"),
     )
 }
 
-/// A sample in valgrind: no invalid access, no use of unset memory, nothing lost.
+/// A sample of sequences in valgrind: no invalid access, no uninitialised memory, no leak.
 pub fn valgrind() -> Result<()> {
     if !works("valgrind", &["--version"]) {
-        errln!("left out: valgrind is not installed");
+        errln!("skipped: valgrind is not installed");
         return Ok(());
     }
     let runner = "target.'cfg(all())'.runner = 'valgrind --quiet --error-exitcode=9 \

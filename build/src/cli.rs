@@ -1,12 +1,12 @@
-//! What can be typed after `cargo ahv`.
+//! Command line of `cargo ahv`.
 
 use crate::own_vehicle::OwnVehicle;
 use clap::{Args, Parser, Subcommand};
 use std::ffi::OsString;
 use std::path::PathBuf;
 
-/// Hypersonic vehicle with flexible fuselage and sloshing propellant, as an FMU: describe, package,
-/// fly, analyse, test.
+/// Builds, flies, analyses and tests the FMU of a hypersonic vehicle with flexible fuselage and
+/// sloshing propellant.
 #[derive(Debug, Parser)]
 #[command(name = "cargo ahv", bin_name = "cargo ahv", version, arg_required_else_help = true)]
 pub struct Cli {
@@ -20,24 +20,24 @@ pub enum Command {
     Package(Package),
     Fly(Fly),
     Modes(Modes),
-    /// Trimmed flight: incidence, controls, forces, static deflections
+    /// Print the trimmed flight: incidence, controls, forces, static deflections
     #[command(after_help = TRIM_HELP)]
     Trim(Analyse),
     Poles(Poles),
     Test(Test),
-    /// Set every table, claim and computed figure of the paper beside ours; write a report
+    /// Compare every table, claim and computed figure of the paper with ours; write a report
     Reproduce(Research),
-    /// Find numbers that are not published from results that are; write their data file
+    /// Identify unpublished numbers from published results; write their data file
     Identify(Research),
-    /// Fit the curves of eq. (4) to the first-principles model
+    /// Fit the curves of eq. (4) to the first-principles model; write their data file
     Fit(Research),
-    /// Integration methods compared: right-hand sides against error, on the vehicle itself
+    /// Compare integration methods on the vehicle: right-hand sides against error
     Methods(Research),
-    /// Measure speed and size beside other integrators, Python and SciPy; write a table and a picture
+    /// Measure speed and size against other integrators, Python and SciPy; write a table and a figure
     Bench(Research),
 }
 
-/// Passed on to crates/research, which is compiled when it is first needed.
+/// Arguments passed on to crates/research, which is compiled at its first command.
 #[derive(Debug, Args)]
 #[command(disable_help_flag = true)]
 pub struct Research {
@@ -50,12 +50,12 @@ pub struct Research {
 #[command(after_help = "\
 Examples:
   cargo ahv describe            write the file
-  cargo ahv describe --check    fail if the committed file is not what would be written")]
+  cargo ahv describe --check    fail if the committed file is out of date")]
 pub struct Describe {
-    /// Compare instead of writing; fail if they differ
+    /// Compare with the file instead of writing it; fail if they differ
     #[arg(long)]
     pub check: bool,
-    /// File to write or to compare
+    /// File to write or compare [default: modelDescription/modelDescription.xml]
     #[arg(long, value_name = "FILE")]
     pub file: Option<PathBuf>,
 }
@@ -65,7 +65,7 @@ pub struct Describe {
 #[command(after_help = "\
 Examples:
   cargo ahv package
-      build for Linux and Windows, as far as this machine can, and write target/ahv.fmu
+      build for Linux and, if possible, Windows, and write target/ahv.fmu
   cargo ahv package --vehicle mine.toml --coefficients my_air.toml
       the FMU of your own vehicle, target/own/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
@@ -74,13 +74,13 @@ pub struct Package {
     /// FMU to write [default: target/ahv.fmu]
     #[arg(long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Fail if a platform cannot be built for
+    /// Fail if the library for Linux or Windows cannot be built
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
-    /// Build for this machine alone, with its C library: sooner; written to target/ahv-host.fmu
+    /// Build for this machine and its C library only, which is faster; writes target/ahv-host.fmu
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
-    /// Package this library instead of building one (may be repeated); platforms: linux64, win64,
+    /// Package this library instead of building one (repeatable); platforms: linux64, win64,
     /// darwin64, aarch64-linux, aarch64-windows, aarch64-darwin
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
@@ -88,16 +88,16 @@ pub struct Package {
     pub own_vehicle: OwnVehicle,
 }
 
-/// Fly a manoeuvre with the FMU; write the time history as CSV and as a figure
+/// Fly a manoeuvre with the FMU; write the time history as CSV and as figures
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Input file: CSV with the header `time,delta_e,phi` or any inputs; time in s, delta_e in rad (or
-`delta_e[deg]` for degrees), phi without unit. Inputs are linear between rows; a jump is two rows
-with the same time, before and after it. The first row's values hold before it, the last row's
-after it. With the default input mode both are deviations from trim.
+Input file: CSV with the header `time,delta_e,phi` or any other inputs; time in s, delta_e in rad
+(or `delta_e[deg]` in degrees), phi without unit. Inputs are linear between rows; a jump is two
+rows with the same time, the values before and after it. The first row also holds before its time,
+the last row after. With the default input mode delta_e and phi are deviations from trim.
 
-Output files: flight.csv (time, all inputs, all outputs; SI units and radians), which can be flown
-again, flight.svg, flight.png.
+Output files: flight.csv (time, all inputs, all outputs; SI units and radians), which is also a
+valid input file; flight.svg and flight.png.
 
 Examples:
   cargo ahv fly
@@ -105,19 +105,19 @@ Examples:
   cargo ahv fly --set mach0=9 --set altitude0=27000 --stop 1
   cargo ahv fly --set gamma0=1deg --fmu target/ahv.fmu --output target/climb")]
 pub struct Fly {
-    /// Inputs over time [default: examples/elevator_doublet.csv]
+    /// Input file [default: examples/elevator_doublet.csv]
     #[arg(long, value_name = "FILE.csv")]
     pub input: Option<PathBuf>,
     /// Directory for the results [default: target/flight]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Communication step, s [default: 0.01]
+    /// Communication step size, s [default: 0.01]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub step: Option<f64>,
-    /// Stop time, s [default: that of the FMU]
+    /// Stop time, s [default: from the FMU]
     #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
     pub stop: Option<f64>,
-    /// Relative tolerance of the integration [default: that of the FMU]
+    /// Relative tolerance of the integration [default: from the FMU]
     #[arg(long, value_name = "NUMBER", allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
     #[command(flatten)]
@@ -125,18 +125,18 @@ pub struct Fly {
     /// Fly this FMU instead of building one
     #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
-    /// Build for this machine alone, with its C library: sooner; flies target/ahv-host.fmu
+    /// Build for this machine and its C library only, which is faster; flies target/ahv-host.fmu
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,
     #[command(flatten)]
     pub own_vehicle: OwnVehicle,
 }
 
-/// Parameters given on the command line.
+/// Parameters set on the command line.
 #[derive(Debug, Args)]
 pub struct Set {
-    /// Set a parameter (may be repeated); enumerations by name or number, reals in the FMU's unit
-    /// or with a unit behind the number: gamma0=1deg
+    /// Set a parameter (repeatable); enumerations by name or number, reals in the FMU's unit
+    /// or with a unit after the number: gamma0=1deg
     #[arg(long = "set", value_name = "NAME=VALUE", allow_hyphen_values = true)]
     pub settings: Vec<String>,
 }
@@ -147,35 +147,35 @@ Examples:
   cargo ahv trim --set configuration=Rigid --set mach0=9
   cargo ahv trim --set gamma0=1deg --json";
 
-/// Options of the commands that look at the model itself.
+/// Options of the commands that analyse the model.
 #[derive(Debug, Args)]
 pub struct Analyse {
     #[command(flatten)]
     pub set: Set,
-    /// Print JSON, in SI units and radians
+    /// Print JSON in SI units and radians
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
     pub own_vehicle: OwnVehicle,
 }
 
-/// Frequencies, damping and slosh displacements of the kept modes
+/// Print frequencies, damping and slosh displacements of the modes
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cargo ahv modes
   cargo ahv modes --set fuel_fraction=0.5 --set slosh_damping=0.02
   cargo ahv modes --set configuration=EvenMassBeam --json
-  cargo ahv modes --elements    with the beam's elements, for crates/research/bench/modes_vs_eigsh.py")]
+  cargo ahv modes --elements    input of crates/research/bench/modes_vs_eigsh.py")]
 pub struct Modes {
-    #[command(flatten)]
-    pub analyse: Analyse,
-    /// Print JSON with the beam's elements
+    /// Print the eigenproblem as JSON: beam elements and sloshing masses
     #[arg(long)]
     pub elements: bool,
+    #[command(flatten)]
+    pub analyse: Analyse,
 }
 
-/// Poles and transmission zeros (delta_e, phi to V, gamma) in trimmed flight
+/// Print poles and transmission zeros (delta_e, phi to V, gamma) in trimmed flight
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -183,29 +183,29 @@ Examples:
   cargo ahv poles --all
   cargo ahv poles --set configuration=Rigid --json")]
 pub struct Poles {
-    /// All configurations side by side
+    /// Show all configurations side by side
     #[arg(long)]
     pub all: bool,
     #[command(flatten)]
     pub analyse: Analyse,
 }
 
-/// Check: format, lints, Rust tests, description, package, FMU tests in FMPy; with --thorough, everything
+/// Check format, lints, Rust tests, description, package, and the FMU in FMPy
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv test                             while you work: three minutes, once all is compiled
-  cargo ahv test --thorough                  before you hand something on: half an hour
-  cargo ahv test --thorough --all-targets    fail if the library for Windows cannot be built or run")]
+  cargo ahv test                             while you work: three minutes once compiled
+  cargo ahv test --thorough                  before you submit a change: half an hour
+  cargo ahv test --thorough --all-targets    also fail if Windows cannot be built or tested")]
 pub struct Test {
-    /// Masters beyond FMPy, examples, 100,000 random sequences, sanitizer, valgrind, benchmarks and
-    /// Windows too
+    /// Also test examples, other masters, 100,000 random call sequences, sanitizer, valgrind,
+    /// benchmarks and Windows
     #[arg(long)]
     pub thorough: bool,
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,
-    /// Fail if a platform cannot be built for or tested
+    /// Fail if the library for Linux or Windows cannot be built or tested
     #[arg(long)]
     pub all_targets: bool,
 }

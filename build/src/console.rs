@@ -1,29 +1,29 @@
-//! Standard output and error. What cannot be written is an error with its cause, never a panic.
+//! Standard output and standard error. A failed write is an error with its cause, never a panic.
 
 use anyhow::{Error, Result};
 use std::fmt::{self, Arguments, Display};
 use std::io::{self, ErrorKind, Write};
 use std::process::ExitCode;
 
-/// A line to standard output.
+/// Writes a line to standard output.
 #[macro_export]
 macro_rules! outln {
     ($($part:tt)*) => { $crate::console::write_out(format_args!("{}\n", format_args!($($part)*))) };
 }
 
-/// Text to standard output.
+/// Writes text to standard output.
 #[macro_export]
 macro_rules! out {
     ($($part:tt)*) => { $crate::console::write_out(format_args!($($part)*)) };
 }
 
-/// A line to standard error, for people; where nobody can read it, it is not missed.
+/// Writes a line to standard error; failures are ignored.
 #[macro_export]
 macro_rules! errln {
     ($($part:tt)*) => { $crate::console::write_err(format_args!($($part)*)) };
 }
 
-/// The reader of standard output has seen enough, as in `cargo ahv poles | head`: no failure.
+/// The reader closed standard output, as in `cargo ahv poles | head`. This is not a failure.
 #[derive(Debug)]
 pub struct ClosedPipe;
 
@@ -39,13 +39,13 @@ pub fn write_out(text: Arguments) -> Result<()> {
     io::stdout().write_fmt(text).map_err(output_error)
 }
 
-/// Everything has to arrive before the command ends.
+/// Flushes standard output, so that write errors are reported before the command ends.
 pub fn flush() -> Result<()> {
     io::stdout().flush().map_err(output_error)
 }
 
 pub fn write_err(text: Arguments) {
-    // There is no other place to complain.
+    // There is nowhere else to report this.
     let _ = writeln!(io::stderr(), "{text}");
 }
 
@@ -56,20 +56,20 @@ pub fn output_error(error: io::Error) -> Error {
     }
 }
 
-/// What failed, then why, on one line. A cause that only repeats what is already said is left out.
+/// The error and its causes on one line, without causes that an outer message already contains.
 pub fn error_chain(error: &Error) -> String {
-    let mut told = String::new();
+    let mut message = String::new();
     for cause in error.chain().map(ToString::to_string) {
-        if told.is_empty() {
-            told = cause;
-        } else if !told.contains(&cause) {
-            told = format!("{told}: {cause}");
+        if message.is_empty() {
+            message = cause;
+        } else if !message.contains(&cause) {
+            message = format!("{message}: {cause}");
         }
     }
-    told
+    message
 }
 
-/// The end of a command; of clap's errors one is help.
+/// Exit code of a command; prints its error. Help is one of clap's errors.
 pub fn exit_code(done: Result<Result<ExitCode>, clap::Error>) -> ExitCode {
     let code = |number| u8::try_from(number).map_or(ExitCode::FAILURE, ExitCode::from);
     let done = done
@@ -90,14 +90,14 @@ mod tests {
     use anyhow::anyhow;
 
     #[test]
-    fn a_cause_is_told_once() {
+    fn a_cause_is_printed_once() {
         let error =
             anyhow!("no such file").context("cannot read a.csv: no such file").context("fly");
         assert_eq!(error_chain(&error), "fly: cannot read a.csv: no such file");
     }
 
     #[test]
-    fn a_closed_pipe_is_known_under_its_context() {
+    fn a_closed_pipe_is_recognised_under_its_context() {
         let closed = output_error(ErrorKind::BrokenPipe.into()).context("table 1");
         assert!(closed.is::<ClosedPipe>());
         let full = output_error(ErrorKind::StorageFull.into());

@@ -1,23 +1,23 @@
-//! A curve that is drawn: points that are not too many, and how they are drawn.
+//! A curve of a figure: its points, decimated for drawing, and its dashes.
 
 use crate::panels::Panel;
 use crate::record::Record;
 
-/// Of the smallest range that is shown: a signal that moves less is constant.
+/// Fraction of a panel's smallest range below which a signal counts as constant.
 const MIN_RELATIVE_RANGE: f64 = 1e-6;
-/// Ups and downs over the height of the panel beyond which dashes say nothing.
+/// Total vertical travel, over the panel height, above which dashes are unreadable.
 const MAX_TRAVEL_IN_HEIGHTS: f64 = 60.0;
 
 /// A curve in the unit of its panel.
 pub struct Curve {
-    /// Position among the panel's curves: it decides colour and dashes.
+    /// Position among the panel's curves, which selects colour and dashes.
     pub number: usize,
     pub label: &'static str,
     pub points: Vec<(f64, f64)>,
 }
 
 impl Curve {
-    /// The curves of a panel that move, or all.
+    /// The curves of a panel: those that vary, or `all`.
     pub fn of(panel: &Panel, record: &Record, all: bool) -> Vec<Self> {
         let curve = |(number, (name, label)): (usize, &(&str, &'static str))| {
             let column = record.column(name)?;
@@ -38,8 +38,8 @@ impl Curve {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], v| [a.min(v), b.max(v)])
     }
 
-    /// At most four points in each of so many columns of pixels: the first, the last and both
-    /// extremes, so the picture is that of all points.
+    /// Keeps at most four points per pixel column, which leaves the picture unchanged: the first, the
+    /// last and both extremes.
     pub fn decimate(&mut self, columns: usize) {
         let (points, count) = (&self.points, self.points.len());
         let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
@@ -65,15 +65,15 @@ impl Curve {
         self.points = kept;
     }
 
-    /// Lengths of dash and gap, pixels: the first curve is solid, the others differ without colour. One
-    /// that fills the panel is solid too.
+    /// Lengths of dash and gap, pixels; `None` for a solid line. The first curve and one that fills the
+    /// panel are solid.
     pub fn dashes(&self, height: f64) -> Option<(u32, u32)> {
         let way: f64 = self.points.windows(2).map(|pair| (pair[1].1 - pair[0].1).abs()).sum();
         if way > MAX_TRAVEL_IN_HEIGHTS * height { None } else { dashes(self.number) }
     }
 }
 
-/// Those of a curve in a legend.
+/// Dashes of a curve in a legend.
 pub fn dashes(number: usize) -> Option<(u32, u32)> {
     [None, Some((9, 4)), Some((3, 3))].get(number).copied().flatten()
 }

@@ -1,4 +1,4 @@
-//! Writes modelDescription.xml from the table of variables.
+//! `cargo ahv describe`: writes modelDescription.xml from the table of variables.
 
 use crate::cli::Describe;
 use crate::workspace::{MAX_TEXT_BYTES, read_text, root, shown, write};
@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use fmi_model::Model;
 use fmi_model::describe::model_description;
 
-/// Name of the binary and of its C prefix.
+/// Name of the library in the FMU.
 pub const MODEL_IDENTIFIER: &str = Setup::ABOUT.identifier;
 
 pub fn run(options: &Describe) -> Result<()> {
@@ -23,7 +23,7 @@ pub fn run(options: &Describe) -> Result<()> {
     if found != expected {
         let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
         bail!(
-            "{}, line {}: not what the table of variables says; run `cargo ahv describe` and \
+            "{}, line {}: differs from the table of variables; run `cargo ahv describe` and \
              commit the result\n  found:    {}\n  expected: {}",
             shown(file),
             line + 1,
@@ -35,7 +35,7 @@ pub fn run(options: &Describe) -> Result<()> {
     Ok(())
 }
 
-/// The whole file. The same sources give the same bytes: no date, no path, no host.
+/// The text of the file. It has no date, path or host name: the same sources give the same bytes.
 pub fn xml() -> Result<String> {
     Ok(model_description::<Setup>()?)
 }

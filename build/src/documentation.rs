@@ -1,4 +1,4 @@
-//! Writes the documentation inside the FMU from the table of variables and the data of the vehicle.
+//! Writes the FMU's documentation from the table of variables and the vehicle data.
 
 use crate::workspace::{MAX_TEXT_BYTES, read_text, root};
 use ahv::flight::{Flight, Setup};
@@ -8,7 +8,7 @@ use fmi_model::{Kind, Model, Role, Variable, identity::guid};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
-/// On a narrow screen each variable is a paragraph: name, meaning, then what can be set.
+/// On a narrow screen each variable is a paragraph: name, meaning, then the other columns.
 const STYLE: &str = "\
 body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:60em;margin:2em auto;padding:0 1em;\
 overflow-wrap:break-word}img{max-width:100%}a{padding:.3em 0;color:#0054a6}\
@@ -24,46 +24,46 @@ td:nth-child(1)::before{content:'ref. '}td:nth-child(4)::before{content:'unit '}
 td:nth-child(5)::before{content:'start '}}";
 
 const EQUATIONS: &str = "\
-<p>The rigid body moves over a round, non-rotating earth with inverse-square gravity. States are
+<p>The vehicle moves over a spherical, non-rotating earth with inverse-square gravity. Rigid-body states are
 airspeed, altitude, flight-path angle, incidence and pitch rate; all forces are per metre of
 width.</p>
 <ul>
-<li>Airspeed: thrust along the flight path less drag, over mass, less gravity along the path.</li>
-<li>Flight path: lift and the thrust across the path, over mass and airspeed, less gravity across
-the path, plus the centrifugal relief of the curved earth.</li>
-<li>Incidence: pitch rate less the rate of the flight-path angle. Attitude is their sum.</li>
-<li>Pitch: moment of air and thrust about the mass centre, over the pitch inertia.</li>
-<li>Every kept mode: a damped oscillator driven by its generalised aerodynamic force. The modes are
-those of the free beam together with the sloshing masses on their springs, so the force of the
-propellant is inside them; the dampers of the sloshing masses couple them. Pitch, bending and slosh
-share one mass matrix: mass centre and pitch inertia are those of the coefficient set.</li>
-<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in the incidence of the body, which
-sloshing liquid turns, in elevator, fuel ratio and the bending with its rates. Terms in the pitch rate, of
-strip theory, count with <code>pitch_rate_factor</code>.</li>
-<li>Sensors move with a point of the bent body: its flight path, attitude and accelerations are those of
-the mass centre plus what pitch rate, bending and slosh add there.</li>
-<li>In air that moves, incidence, airspeed and Mach number are those relative to the air, and lift
-and drag stand across and along the path through it. The gust is the same along the vehicle.</li>
-<li>With <code>fuel_burn</code> the engine takes its fuel from the tanks; mass, mass centre and modes follow.</li>
+<li>Airspeed: thrust along the flight path minus drag, divided by mass, minus gravity along the path.</li>
+<li>Flight-path angle: lift and the normal component of thrust, divided by mass and airspeed, minus gravity
+normal to the path, plus the centrifugal term of the curved earth.</li>
+<li>Incidence: pitch rate minus the rate of the flight-path angle. Attitude is incidence plus flight-path angle.</li>
+<li>Pitch: moment of air and thrust about the mass centre, divided by the pitch inertia.</li>
+<li>Modes: each is a damped oscillator driven by its generalised aerodynamic force. The modes are
+those of the free-free beam with the sloshing masses on their springs, so they contain the force of the
+propellant; the dampers of the sloshing masses couple them. Pitch, bending and slosh
+share one mass matrix, with the mass centre and pitch inertia of the coefficient set.</li>
+<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel ratio, bending
+and its rates. The incidence is that of the body, which the sloshing liquid turns. Pitch-rate terms from
+strip theory are multiplied by <code>pitch_rate_factor</code>.</li>
+<li>Sensors are fixed to a point of the bent body: its flight path, attitude and accelerations are those of
+the mass centre plus the contributions of pitch rate, bending and slosh.</li>
+<li>In moving air, incidence, airspeed and Mach number are relative to the air, and lift
+and drag are normal to and along the velocity through it. The gust is uniform along the vehicle.</li>
+<li>With <code>fuel_burn</code> the engine consumes fuel from the tanks; mass, mass centre and modes change with it.</li>
 </ul>
 <p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
-the master gives for the step. The states are integrated by an exponential method, which moves the
-decoupled oscillators exactly, or, while inputs move within the step, by an explicit Runge-Kutta method of
+the master sets for the step. The states are integrated by an exponential method, which advances the
+decoupled oscillators exactly, or, while inputs vary within the step, by an explicit Runge-Kutta method of
 order 8. Both control their error and end exactly on the communication point, so a communication step
-may be of any length. A communication point within a millionth of the step, or rounded to nine decimals, is
-the same instant.</p>
-<p>In Model Exchange the master integrates. The third flexible mode, 108 rad/s with little damping, is what a
-fixed step has to follow: explicit Euler lets it grow at steps above some 0.4 ms, whatever the default step
-of the tool, and without a word. At the default experiment's 0.2 ms all modes decay and the error of a
-flight is some hundredths of its excursion; CVODE and its kind choose their steps themselves.</p>";
+may be of any length. Communication points that differ by less than a millionth of the step, or by rounding to
+nine decimals, are the same instant.</p>
+<p>In Model Exchange the master integrates. The third flexible mode, 108 rad/s with little damping, limits
+fixed-step methods: with explicit Euler it is unstable at steps above about 0.4 ms, and the master gives no
+warning. At the default step size of 0.2 ms all modes decay and the error of a
+flight is a few per cent of its excursion; solvers with error control, such as CVODE, choose their own steps.</p>";
 
-const WHAT: &str = "\
+const SUMMARY: &str = "\
 <p><img src=\"../model.png\" alt=\"Side view with two tanks; below, the first bending mode\" \
 width=\"300\"/></p>
-<p>Inputs are elevator, fuel ratio and the air's vertical and horizontal velocity; outputs are the
-rigid-body motion, the flexible and sloshing modes, the loads and what sensors see. The fuselage is a free-free beam of finite elements; two tanks carry sloshing
-masses that take part in its modes. All numbers are inside the library: it reads no file, opens no
-window and needs nothing but the system.</p>";
+<p>Inputs are elevator, fuel ratio and the vertical and horizontal velocity of the air; outputs are the
+rigid-body motion, the flexible and sloshing modes, the loads and the sensor readings. The fuselage is a
+free-free beam of finite elements; the sloshing masses of two tanks are part of its modes. The library contains
+all data: it reads no files, opens no windows and depends only on the system.</p>";
 
 const CITE: &str = "\
 <h2>How to cite</h2>
@@ -77,18 +77,17 @@ and Dynamics 30(3), 2007, 856-869.</p>";
 
 const REPORT: &str = "\
 <h2>How to report a problem</h2>
-<p>First fly the set in <a href=\"cross-check/\">cross-check</a>: inputs, options and the outputs that
-belong to them, in the files of the FMI cross-check. If your tool gives other numbers with them, the
-import is the matter. Otherwise tell the authors: version and identifier of the model; platform,
-tool and its version; parameters that were set, inputs, step and tolerance; the log with all
-categories on (<code>fmi2SetDebugLogging</code>); what came out and what was expected.</p>";
+<p>First simulate the case in <a href=\"cross-check/\">cross-check</a>: inputs, options and reference outputs
+in the format of the FMI cross-check. If your tool gives different outputs, the problem is in the
+import. Otherwise send the authors: version and identifier of the model; platform,
+tool and its version; parameters, inputs, step size and tolerance; the log with all
+categories on (<code>fmi2SetDebugLogging</code>); the result and what you expected.</p>";
 
-/// The page, as valid XHTML; `machines` are those that it is packaged for. The same sources give the
-/// same bytes.
+/// The page, as valid XHTML; `machines` are the packaged platforms. The same sources give the same bytes.
 pub fn html(machines: &[String]) -> Result<String> {
     let setup = Setup::new()?;
     let mut rows = String::new();
-    // What a master sets while it flies comes first; references only ever grow.
+    // Inputs come first, whatever their value reference.
     let (inputs, others): (Vec<_>, Vec<_>) = Setup::VARIABLES
         .iter()
         .enumerate()
@@ -97,7 +96,7 @@ pub fn html(machines: &[String]) -> Result<String> {
         variable_row(&mut rows, reference, variable, &setup)?;
     }
     let same = if machines.len() > 1 {
-        " They compute the same bits, and a serialised state of one continues on the other."
+        " All compute the same bits, and a serialised state of one can be restored on another."
     } else {
         ""
     };
@@ -113,12 +112,11 @@ pub fn html(machines: &[String]) -> Result<String> {
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
          2015, 81-88. FMI 2.0 for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
-         {WHAT}\n{machines}\n\
+         {SUMMARY}\n{machines}\n\
          <h2>Use</h2>\n\
-         <p>Without any setting the vehicle flies level and trimmed; <code>delta_e</code> and \
-         <code>phi</code> are deviations from trim. It is unstable in pitch, as every vehicle of \
-         this family: without a controller even rounding errors grow, so free flight is meaningful \
-         for a few seconds only.</p>\n\
+         <p>With default parameters the vehicle flies level and trimmed; <code>delta_e</code> and \
+         <code>phi</code> are deviations from trim. It is unstable in pitch: without a controller \
+         even rounding errors grow, so uncontrolled flight is meaningful for a few seconds only.</p>\n\
          <h2>Equations</h2>\n{EQUATIONS}\n\
          <h2>Validity and limits</h2>\n{limits}\n\
          <h2>Variables</h2>\n\
@@ -126,19 +124,19 @@ pub fn html(machines: &[String]) -> Result<String> {
          <th>start</th><th>range</th><th>meaning</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
          {CITE}\n{REPORT}\n\
          <h2>Changes</h2>\n{changes}\n\
-         <h2>Licences</h2>\n<p>{} In <a href=\"licenses/\">licenses</a>: the texts, and those of \
-         the libraries inside the binary.</p>\n</body>\n</html>\n",
+         <h2>Licences</h2>\n<p>{}. The texts, and those of the libraries inside the binary, are in \
+         <a href=\"licenses/\">licenses</a>.</p>\n</body>\n</html>\n",
         env!("CARGO_PKG_LICENSE")
     ))
 }
 
-/// A round number as one writes it, whatever conversion did to its last digits.
+/// A number without the rounding errors of unit conversion.
 fn plain(value: f64) -> String {
     const DIGITS: f64 = 1e9;
     ((value * DIGITS).round() / DIGITS).to_string()
 }
 
-/// The changelog without its title, one level down.
+/// The changelog without its title, headings one level lower.
 fn changes() -> Result<String> {
     let text = read_text(&root().join("CHANGELOG.md"), MAX_TEXT_BYTES)?;
     let text = text.split_once("\n## ").map_or("", |(_, versions)| versions);
@@ -157,15 +155,13 @@ fn limits(flight: &Flight) -> String {
     let degrees = 1f64.to_degrees();
     let [elevator, fuel] = vehicle.limits;
     format!(
-        "<p>The default curve fits hold for Mach {}, altitude {} and incidence {}. Leaving this \
-         region ends a step early with fmi2Discard; time and state are those of the last valid \
-         instant. Controls are cut to elevator {} and fuel ratio {}, gusts to {}: within a step an input \
-         goes on as its derivatives say, also beyond the range in which it can be set, but acts no \
-         further than this. A flight condition without trim \
-         inside these limits is refused at the end of initialisation, with the limit that was hit. So is a \
-         sloshing mass that would leave the depth of its liquid: near empty tanks that is little. With \
-         aero = shock_expansion a flight also ends where the burner chokes. \
-         Values that are not finite are refused and change nothing.</p>",
+        "<p>The default curve fits are valid for Mach {}, altitude {} and incidence {}. Outside this \
+         region a step ends early with fmi2Discard, with time and state of the last valid instant. So does a \
+         flight in which a sloshing mass would move further than its liquid is deep, which is little in \
+         nearly empty tanks, or, with aero = shock_expansion, the burner chokes. Controls saturate at \
+         elevator {} and fuel ratio {}, gusts at {}; this also limits inputs that their derivatives carry \
+         beyond the range in which they can be set. If no trim exists inside these limits, initialisation fails \
+         and names the limit that was hit. Values that are not finite are refused and change nothing.</p>",
         between(envelope.mach, 1.0, ""),
         between(envelope.altitude, 1e-3, " km"),
         between(envelope.alpha, degrees, " deg"),

@@ -1,4 +1,4 @@
-//! A drawing, for screen (SVG) and print (PNG), and what all figures have in common.
+//! Renders figures as SVG and PNG; fonts, colours and labels of all figures.
 
 use crate::raster;
 use crate::workspace::Files;
@@ -11,9 +11,9 @@ use plotters::style::{FontStyle, register_font};
 use std::ops::Range;
 use std::path::Path;
 
-/// The PNG is drawn this much larger, ...
+/// Figures are drawn larger by this factor, ...
 const DRAWING_SCALE: u32 = 4;
-/// ... and averaged over squares of this size: the backend does not smooth lines itself.
+/// ... and the PNG is averaged over squares of this many pixels: the backend has no antialiasing.
 const AVERAGING_SQUARE: u32 = 2;
 
 pub const FONT: &str = "sans-serif";
@@ -32,7 +32,7 @@ pub const FRAME: RGBColor = RGBColor(90, 90, 90);
 pub type Area<B> = DrawingArea<B, Shift>;
 pub type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
-/// Something that can be drawn at any scale.
+/// A figure that can be drawn at any scale.
 pub trait Drawing {
     fn draw<B: DrawingBackend>(&self, area: &Area<B>, scale: u32) -> Drawn<B>
     where
@@ -41,11 +41,11 @@ pub trait Drawing {
 
 /// The files `stem`.svg and `stem`.png; size in pixels at scale one.
 pub fn files(drawing: &impl Drawing, size: (u32, u32), stem: &Path) -> Result<Files> {
-    // An own font: the figure looks the same on a machine that has none.
+    // With a built-in font the figure is the same on every machine.
     register_font(FONT, FontStyle::Normal, dejavu::sans::regular())
         .map_err(|_| anyhow!("the built-in font cannot be read"))?;
     let (svg, png) = (stem.with_extension("svg"), stem.with_extension("png"));
-    // Backends know whole pixels only, so both drawings are large and shown smaller.
+    // Backends round to whole pixels, so both drawings are large and displayed smaller.
     let (width, height) = (size.0 * DRAWING_SCALE, size.1 * DRAWING_SCALE);
     let mut text = String::new();
     draw(
@@ -74,7 +74,7 @@ where
     area.present().map_err(failed)
 }
 
-/// Decimals that the labels of an axis need.
+/// Number of decimals that the labels of an axis need.
 pub fn decimals(range: Range<f64>, labels: usize) -> usize {
     let ticks = RangedCoordf64::from(range).key_points(BoldPoints(labels));
     let &[first, second, ..] = ticks.as_slice() else { return 6 };
@@ -84,7 +84,7 @@ pub fn decimals(range: Range<f64>, labels: usize) -> usize {
     needed.unwrap_or(6) as usize
 }
 
-/// A number on an axis; what rounds to zero has no sign.
+/// Label of a number on an axis; a number that rounds to zero has no sign.
 pub fn label(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {

@@ -1,4 +1,4 @@
-//! Flies a manoeuvre with the FMU.
+//! `cargo ahv fly`: flies a manoeuvre with the FMU.
 
 use crate::cli::Fly;
 use crate::fmu::Fmu;
@@ -16,7 +16,7 @@ use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
 
-/// Communication step, s, where nobody asks for another: rows that show the third mode.
+/// Default communication step, s; short enough to resolve the third mode.
 pub const STEP: f64 = 0.01;
 
 pub fn run(options: &Fly) -> Result<()> {
@@ -68,7 +68,7 @@ pub fn run(options: &Fly) -> Result<()> {
     outln!("set          {}", set_summary(&settings))?;
     outln!("\nCalculated at initialisation")?;
     out!("{}", table(&calculated))?;
-    outln!("\nLargest deviations from the start")?;
+    outln!("\nLargest deviations from the initial values")?;
     out!("{}", deviations(model, &flown.record))?;
     print_messages(&instance)?;
     outln!("")?;
@@ -91,7 +91,7 @@ pub fn positive(option: &str, value: Option<f64>) -> Result<f64> {
     }
 }
 
-/// What was flown: vehicle, what was set besides, manoeuvre.
+/// Title of the figure: configuration, coefficient set, other settings, input file.
 fn title(model: &ModelDescription, settings: &[Setting], input: &Path) -> String {
     let set = |name: &str| settings.iter().find(|setting| setting.variable.name == name);
     let vehicle = ["configuration", "aero"].into_iter().filter_map(|name| {
@@ -109,12 +109,12 @@ fn title(model: &ModelDescription, settings: &[Setting], input: &Path) -> String
 
 fn set_summary(settings: &[Setting]) -> String {
     match settings {
-        [] => "nothing: all parameters have their start values".to_string(),
+        [] => "nothing: all parameters at their defaults".to_string(),
         some => some.iter().map(|setting| setting.text).collect::<Vec<_>>().join(", "),
     }
 }
 
-/// Rows of name, value and unit, as they are shown.
+/// Rows of name, value and unit, in display units.
 fn values_of(
     instance: &mut Instance,
     model: &ModelDescription,

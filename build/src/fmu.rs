@@ -1,4 +1,4 @@
-//! An FMU as a file: unzipped, with its description read.
+//! Opens an FMU: unzips it and reads its model description.
 
 use crate::model_description::ModelDescription;
 use crate::package::{Binary, host};
@@ -9,14 +9,14 @@ use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 use zip::ZipArchive;
 
-/// Most files in an FMU; those with sources and documentation have hundreds.
+/// Limit on files in an FMU; those with sources and documentation have hundreds.
 const MAX_ENTRIES: usize = 10_000;
-/// Most bytes that all files of an FMU unpack to.
+/// Limit on the unpacked size of an FMU.
 const MAX_UNPACKED_BYTES: u64 = 2 * MAX_BINARY_BYTES;
-/// Most bytes of a description; thousands of variables take a few million.
+/// Size limit of a model description; thousands of variables take a few MB.
 const MAX_DESCRIPTION_BYTES: u64 = 50_000_000;
 
-/// An unpacked FMU. The directory goes when this value does.
+/// An unpacked FMU. Its directory is deleted when this value is dropped.
 pub struct Fmu {
     directory: TempDir,
     /// Path of the binary for this machine.
@@ -38,44 +38,44 @@ impl Fmu {
         }
         let xml = read(&xml, MAX_DESCRIPTION_BYTES).with_context(|| name.clone())?;
         let Ok(xml) = String::from_utf8(xml) else {
-            bail!("{name}: modelDescription.xml is not a text in UTF-8");
+            bail!("{name}: modelDescription.xml is not UTF-8 text");
         };
         let model = ModelDescription::parse(&xml).with_context(|| name.clone())?;
         if model.fmi_version != "2.0" {
-            bail!("{name} is for FMI {}; one for FMI 2.0 is needed", model.fmi_version);
+            bail!("{name} is for FMI {}; FMI 2.0 is needed", model.fmi_version);
         }
         let Some(co_simulation) = &model.co_simulation else {
-            bail!("{name} is not for co-simulation, which is needed");
+            bail!("{name} does not support co-simulation, which is needed");
         };
         let identifier = &co_simulation.model_identifier;
-        if !is_c_name(identifier) {
-            bail!("{name}: the modelIdentifier {identifier:?} is not the name of a C function");
+        if !is_c_identifier(identifier) {
+            bail!("{name}: the modelIdentifier {identifier:?} is not a C identifier");
         }
         let host = host()?;
         let binary = format!("binaries/{}/{identifier}.{}", host.name, host.ending);
         let path = directory.path().join(&binary);
         if !path.exists() {
-            bail!("{name} has no binary for this machine: {binary} is not in it");
+            bail!("{name} has no binary for this machine: {binary} is missing");
         }
-        // What only looks like a library may end the process that loads it.
+        // Loading a damaged library may crash the process.
         Binary::parse(&read(&path, MAX_BINARY_BYTES)?)
             .and_then(|found| found.is_for(host))
             .with_context(|| format!("{name}: {binary}"))?;
         Ok(Self { directory, binary: path, model })
     }
 
-    /// URI of the resources, for the sake of the interface: an FMU may look there.
+    /// URI of the resources directory, which fmi2Instantiate requires.
     pub fn resources(&self) -> String {
         format!("file://{}", self.directory.path().join("resources").display())
     }
 }
 
-fn is_c_name(text: &str) -> bool {
+fn is_c_identifier(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
-/// Unpacks a zip below a directory; what leads out of it is refused.
+/// Unpacks a zip into a directory. Entries that lead out of it are refused.
 fn unpack(content: &[u8], directory: &Path, [entries, bytes]: [u64; 2]) -> Result<()> {
     let mut archive = ZipArchive::new(Cursor::new(content)).context("it cannot be unzipped")?;
     if archive.len() as u64 > entries {
@@ -84,20 +84,20 @@ fn unpack(content: &[u8], directory: &Path, [entries, bytes]: [u64; 2]) -> Resul
     let mut left = bytes;
     for index in 0..archive.len() {
         let entry = archive.by_index(index).context("it cannot be unzipped")?;
-        let name = entry.name().context("a file in it has no readable name")?.into_owned();
+        let name = entry.name().context("an entry has no readable name")?.into_owned();
         let inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
         if entry.is_symlink() || !Path::new(&name).components().all(inside) {
-            bail!("{name:?} in it may lead out of the folder that it is unpacked to");
+            bail!("its entry {name:?} may lead out of the target folder");
         }
         if entry.is_dir() {
             continue;
         }
         let mut unpacked = Vec::new();
-        // What a header says of the size may be wrong.
+        // The size in the header may be wrong.
         entry
             .take(left + 1)
             .read_to_end(&mut unpacked)
-            .with_context(|| format!("{name:?} in it cannot be unzipped"))?;
+            .with_context(|| format!("its entry {name:?} cannot be unzipped"))?;
         left = left.checked_sub(unpacked.len() as u64).with_context(|| {
             format!("it unpacks to more than {} MB, the limit", bytes / 1_000_000)
         })?;
@@ -138,9 +138,9 @@ mod tests {
         linked.add_symlink("binaries", "/tmp", SimpleFileOptions::default()).unwrap();
         let linked = linked.finish().unwrap().into_inner();
         for (content, limits, told) in [
-            (archive(&[("../../out.so", b"x")]), MANY, "\"../../out.so\" in it may lead out"),
+            (archive(&[("../../out.so", b"x")]), MANY, "entry \"../../out.so\" may lead out"),
             (archive(&[("/tmp/out.so", b"x")]), MANY, "may lead out"),
-            (linked, MANY, "\"binaries\" in it may lead out"),
+            (linked, MANY, "entry \"binaries\" may lead out"),
             (archive(&[("zeros", &zeros)]), MANY, "more than 1 MB, the limit"),
             (
                 archive(&[("a", &zeros[..600_000]), ("b", &zeros[..600_000])]),
@@ -160,10 +160,10 @@ mod tests {
     }
 
     #[test]
-    fn an_identifier_is_a_c_name() {
-        assert!(is_c_name("ahv") && is_c_name("_a1"));
+    fn a_model_identifier_is_a_c_identifier() {
+        assert!(is_c_identifier("ahv") && is_c_identifier("_a1"));
         for name in ["", "../../../tmp/evil", "1a", "a b", "a\\b"] {
-            assert!(!is_c_name(name), "{name}");
+            assert!(!is_c_identifier(name), "{name}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `cargo ahv`: describes, packages, flies and tests the ahv FMU. crates/research shares what is here.
+//! The `cargo ahv` tool: describes, packages, flies and tests the FMU. crates/research uses it as a library.
 
 #![allow(missing_docs)]
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods)]

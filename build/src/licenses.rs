@@ -1,4 +1,4 @@
-//! The licences of everything that is inside the library.
+//! Collects the licences of everything in the library.
 
 use crate::workspace::{MAX_TEXT_BYTES, cargo, read, root};
 use anyhow::{Context, Result, bail};
@@ -19,8 +19,8 @@ struct Crate {
     manifest_path: PathBuf,
 }
 
-/// Licence files by their name in the FMU: our own, those of every crate that is linked in, and
-/// those of the runtimes that compilers and linkers add.
+/// Licence files by name in the FMU: ours, those of every linked crate, and those of the run-time libraries
+/// that compilers and linkers add.
 pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
     let mut files = BTreeMap::new();
     for (name, content) in in_directory(root())? {
@@ -64,31 +64,30 @@ fn in_directory(directory: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(found)
 }
 
-/// The crates that the library is linked from, without itself. Macros run at build time and leave
-/// nothing behind.
+/// The crates linked into the library, without procedural macros, which run only at build time.
 fn linked_crates() -> Result<Vec<Crate>> {
-    let tree = ask_cargo(&[
+    let tree = cargo_output(&[
         "tree",
         "--package=ahv-fmu",
         "--edges=normal,no-proc-macro",
         "--prefix=none",
         "--format={p}",
     ])?;
-    // A line is like `libm v0.2.16`; the library itself has its path behind that.
+    // Lines such as `libm v0.2.16`; that of the library also has a path.
     let linked: BTreeSet<_> = String::from_utf8_lossy(&tree)
         .lines()
         .filter_map(|line| line.split_once(" v"))
         .map(|(name, rest)| (name.to_string(), rest.split(' ').next().unwrap_or(rest).to_string()))
         .filter(|(name, _)| name != "ahv-fmu")
         .collect();
-    let metadata = ask_cargo(&["metadata", "--format-version=1"])?;
+    let metadata = cargo_output(&["metadata", "--format-version=1"])?;
     let Metadata { mut packages } =
         serde_json::from_slice(&metadata).context("cargo metadata cannot be read")?;
     packages.retain(|found| linked.contains(&(found.name.clone(), found.version.clone())));
     Ok(packages)
 }
 
-fn ask_cargo(arguments: &[&str]) -> Result<Vec<u8>> {
+fn cargo_output(arguments: &[&str]) -> Result<Vec<u8>> {
     let output = cargo().args(arguments).arg("--quiet").output().context("cannot start cargo")?;
     if !output.status.success() {
         let message = String::from_utf8_lossy(&output.stderr);

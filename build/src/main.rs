@@ -1,4 +1,4 @@
-//! `cargo ahv`.
+//! The `cargo ahv` command.
 
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
 
@@ -27,11 +27,11 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Trim(options) => trim::run(options),
         Command::Poles(options) => poles::run(options),
         Command::Test(options) => test::run(options),
-        Command::Reproduce(passed) => return research::run("reproduce", passed),
-        Command::Identify(passed) => return research::run("identify", passed),
-        Command::Fit(passed) => return research::run("fit", passed),
-        Command::Methods(passed) => return research::run("methods", passed),
-        Command::Bench(passed) => return research::run("bench", passed),
+        Command::Reproduce(options) => return research::run("reproduce", options),
+        Command::Identify(options) => return research::run("identify", options),
+        Command::Fit(options) => return research::run("fit", options),
+        Command::Methods(options) => return research::run("methods", options),
+        Command::Bench(options) => return research::run("bench", options),
     }?;
     Ok(ExitCode::SUCCESS)
 }

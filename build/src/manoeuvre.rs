@@ -1,6 +1,6 @@
-//! Inputs over time, from a CSV file. They change linearly between rows; a jump is two rows with the
-//! same time, the values before and after it. Before the first row and after the last one its values
-//! hold. That is what FMPy and other masters make of a table of continuous inputs.
+//! Inputs over time, from a CSV file. They are linear between rows; a jump is two rows with the
+//! same time, the values before and after it. The first and last rows hold outside their times. FMPy and other
+//! masters interpolate continuous inputs in the same way.
 
 mod columns;
 mod rows;
@@ -11,30 +11,30 @@ use crate::workspace::{MAX_TEXT_BYTES, read, shown};
 use anyhow::Result;
 use std::path::Path;
 
-/// What the simulation does.
+/// Inputs of a flight over time.
 #[derive(Debug)]
 pub struct Manoeuvre<'a> {
     pub inputs: Vec<&'a Variable>,
-    /// Times do not decrease; at most two rows have the same.
+    /// Times do not decrease; at most two rows have the same time.
     pub rows: Vec<Row>,
-    /// Columns that are no inputs of the FMU.
+    /// Names of columns that are not inputs of the FMU.
     pub ignored: Vec<String>,
 }
 
 /// A line of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// s.
+    /// Time, s.
     pub time: f64,
-    /// All inputs, in their units.
+    /// Values of all inputs, in the units of the FMU.
     pub values: Vec<f64>,
 }
 
-/// How the inputs go on from an instant.
+/// Inputs at an instant, with their slopes until the next row.
 #[derive(Debug, PartialEq)]
 pub struct Interpolated {
     pub values: Vec<f64>,
-    /// Their units per s, until the next row.
+    /// Slopes, input units per s.
     pub slopes: Vec<f64>,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Manoeuvre<'a> {
         self.rows.iter().map(|row| row.time)
     }
 
-    /// The values that an instant is reached with: those before a jump. None without a row.
+    /// The values at an instant, before a jump. `None` without rows.
     pub fn before(&self, time: f64) -> Option<Vec<f64>> {
         let next = self.rows.partition_point(|row| row.time < time);
         match self.rows.get(next) {
@@ -63,7 +63,7 @@ impl<'a> Manoeuvre<'a> {
         }
     }
 
-    /// How the inputs go on: from the values after a jump. None without a row.
+    /// The values at an instant, after a jump, and their slopes. `None` without rows.
     pub fn after(&self, time: f64) -> Option<Interpolated> {
         let next = self.rows.partition_point(|row| row.time <= time);
         let (last, next) = match (next.checked_sub(1), self.rows.get(next)) {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn inputs_are_linear_between_rows_jump_at_doubled_ones_and_hold_outside() {
+    fn inputs_are_linear_between_rows_jump_at_doubled_rows_and_hold_outside() {
         let rows = vec![row(1.0, 2.0), row(3.0, 6.0), row(3.0, -1.0), row(4.0, -1.0)];
         let manoeuvre = Manoeuvre { inputs: Vec::new(), rows, ignored: Vec::new() };
         let before = |time| manoeuvre.before(time).unwrap()[0];

@@ -1,6 +1,6 @@
-//! A co-simulation master: opens an FMU and drives it through its C functions, and nothing else.
+//! A co-simulation master: calls the C functions of an FMU.
 //!
-//! This file alone talks C; everything it offers is safe to call.
+//! Only this file of the tool has unsafe code; its public functions are safe.
 #![allow(unsafe_code)]
 
 use crate::fmu::Fmu;
@@ -20,7 +20,7 @@ pub struct Message {
     pub text: String,
 }
 
-/// What the FMU said so far. A mutex, because an FMU may log from any thread.
+/// Messages of the FMU so far. A mutex, because an FMU may log from any thread.
 #[derive(Default)]
 struct Log(Mutex<Vec<Message>>);
 
@@ -38,7 +38,7 @@ impl Log {
 #[derive(Debug)]
 pub enum Step {
     Done,
-    /// The FMU stopped at this time (s), for this reason.
+    /// The FMU ended the step early: time reached (s) and reason.
     Discarded(f64, String),
 }
 
@@ -48,14 +48,14 @@ pub struct Instance {
     component: Component,
     log: Box<Log>,
     _callbacks: Box<Callbacks>,
-    /// Last, so that it is unloaded last.
+    /// The last field, so that it is dropped last.
     _library: Library,
 }
 
 impl Instance {
     /// Loads the binary and makes an instance.
     pub fn new(fmu: &Fmu) -> Result<Self> {
-        // SAFETY: loading runs the initialisers of a library that the user asked to fly.
+        // SAFETY: loading runs the initialisers of a library that the user asked to load.
         let library = unsafe { Library::new(&fmu.binary) }
             .context("the binary of the FMU cannot be loaded")?;
         let functions = Functions::load(&library)?;
@@ -94,7 +94,7 @@ impl Instance {
         Ok(Self { functions, component, log, _callbacks: callbacks, _library: library })
     }
 
-    /// From instantiation to the start of initialisation.
+    /// Sets up the experiment and enters initialisation mode.
     pub fn set_up(&mut self, start: f64, stop: f64, tolerance: f64) -> Result<()> {
         // SAFETY: the component is the one that fmi2Instantiate returned.
         let status = unsafe {
@@ -106,7 +106,7 @@ impl Instance {
         self.check("fmi2EnterInitializationMode", status)
     }
 
-    /// From initialisation to stepping.
+    /// Leaves initialisation mode.
     pub fn initialise(&mut self) -> Result<()> {
         // SAFETY: the component is the one that fmi2Instantiate returned.
         let status = unsafe { (self.functions.exit_initialization_mode)(self.component) };
@@ -133,7 +133,7 @@ impl Instance {
         self.check(call, status).with_context(|| format!("{} = {}", variable.name, short(value)))
     }
 
-    /// How inputs go on within the next step: their first derivatives.
+    /// Sets the first derivatives of inputs for the next step.
     pub fn set_slopes(&mut self, inputs: &[&Variable], slopes: &[f64]) -> Result<()> {
         let references: Vec<_> = inputs.iter().map(|input| input.value_reference).collect();
         let orders = vec![1; slopes.len()];
@@ -157,7 +157,7 @@ impl Instance {
         Ok(values)
     }
 
-    /// Flies from `time` over `length`, both in s.
+    /// Steps from `time` over `length`, both in s.
     pub fn step(&mut self, time: f64, length: f64) -> Result<Step> {
         // SAFETY: the component is the one that fmi2Instantiate returned.
         let status = unsafe { (self.functions.do_step)(self.component, time, length, TRUE) };
@@ -182,7 +182,7 @@ impl Instance {
         self.check("fmi2Terminate", status)
     }
 
-    /// What the FMU said so far.
+    /// Messages of the FMU so far.
     pub fn messages(&self) -> Vec<Message> {
         self.log.all()
     }
@@ -192,7 +192,7 @@ impl Instance {
             OK | WARNING => Ok(()),
             _ => {
                 let reason = self.log.last();
-                // The FMU may name the call itself.
+                // The message may already start with the name of the call.
                 let reason = reason.strip_prefix(call).unwrap_or(&reason);
                 let reason = reason.trim_start_matches([':', ' ']);
                 Err(anyhow!("{call} returned {}: {reason}", status_name(status)))
@@ -245,8 +245,8 @@ unsafe extern "C" {
     fn free(object: *mut c_void);
 }
 
-/// fmi2CallbackLogger without its variadic part, so a message is taken as it is: `%%` stands for a
-/// percent sign, and other directives stay visible.
+/// fmi2CallbackLogger without its variadic arguments: `%%` becomes a percent sign, other directives are kept
+/// as text.
 unsafe extern "C" fn logger(
     environment: *mut c_void,
     _instance: *const c_char,
@@ -266,7 +266,7 @@ unsafe extern "C" fn logger(
     log.0.lock().unwrap_or_else(PoisonError::into_inner).push(message);
 }
 
-/// Declares the table of C functions and how it is filled from a library.
+/// Declares the table of C functions and loads it from a library.
 macro_rules! functions {
     ($($field:ident: $symbol:literal fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
         struct Functions { $($field: unsafe extern "C" fn($($argument),*) $(-> $result)?,)* }

@@ -1,4 +1,4 @@
-//! The FMU in masters beyond FMPy, each with packages of its own: tests/masters.
+//! Tests the FMU in other masters than FMPy, each in its own Python environment: tests/masters.
 
 use crate::console;
 use crate::package::{self, Targets};
@@ -11,10 +11,10 @@ use std::process::Command;
 use std::time::Instant;
 
 const LOCK: &str = "requirements.lock";
-/// Begins the line that says how far a master is from FMPy; tests/masters/conftest.py writes it.
+/// Prefix of the line with the difference from FMPy, written by tests/masters/conftest.py.
 const DIFFERENCE: &str = "difference: ";
 
-/// All of them, a line for each; fails after the last if one did.
+/// Tests all masters and prints a line for each; fails at the end if one failed.
 pub fn fly() -> Result<()> {
     let mut failed = Vec::new();
     for (name, folder) in masters()? {
@@ -31,12 +31,12 @@ pub fn fly() -> Result<()> {
         }
     }
     if !failed.is_empty() {
-        bail!("these do not fly it: {}", failed.join(", "));
+        bail!("these masters failed: {}", failed.join(", "));
     }
     Ok(())
 }
 
-/// Folders with packages of their own, by name.
+/// Folders with a lock file, by name.
 fn masters() -> Result<Vec<(String, PathBuf)>> {
     let home = root().join("tests/masters");
     let mut found = Vec::new();
@@ -50,7 +50,7 @@ fn masters() -> Result<Vec<(String, PathBuf)>> {
     Ok(found)
 }
 
-/// What the tests of one say in a line.
+/// Tests one master; its result in one line.
 fn tested(name: &str, folder: &Path) -> Result<String> {
     let python = environment(&format!("masters/{name}"), &folder.join(LOCK))?.python;
     let output = Command::new(python)
@@ -66,7 +66,7 @@ fn tested(name: &str, folder: &Path) -> Result<String> {
     Ok(outcome(&said).to_string())
 }
 
-/// The line about the difference, or else pytest's last.
+/// The line with the difference, or the last line of pytest.
 fn outcome(said: &str) -> &str {
     let difference = said.lines().find_map(|line| line.strip_prefix(DIFFERENCE));
     difference.or(said.lines().last()).unwrap_or_default()

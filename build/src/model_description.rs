@@ -1,4 +1,4 @@
-//! Reads modelDescription.xml: all that a master may know of an FMU.
+//! Reads modelDescription.xml.
 
 use anyhow::{Result, anyhow};
 use serde::Deserialize;
@@ -51,7 +51,7 @@ struct Unit {
     display: Vec<DisplayUnit>,
 }
 
-/// Shown value = value * factor + offset.
+/// Displayed value = value * factor + offset.
 #[derive(Debug, Clone, Deserialize)]
 pub struct DisplayUnit {
     #[serde(rename = "@name")]
@@ -157,7 +157,7 @@ pub struct Enumeration {
 impl ModelDescription {
     pub fn parse(xml: &str) -> Result<Self> {
         quick_xml::de::from_str(xml).map_err(|error| {
-            // The reason may quote the whole text.
+            // The error may quote the whole file.
             let reason: String = error.to_string().chars().take(200).collect();
             anyhow!("modelDescription.xml cannot be read: {reason}")
         })
@@ -175,7 +175,7 @@ impl ModelDescription {
         self.variables().iter().find(|variable| variable.name == name)
     }
 
-    /// The items of an enumeration; none for other kinds.
+    /// The items of an enumeration; empty for other kinds.
     pub fn items(&self, variable: &Variable) -> &[Item] {
         let Kind::Enumeration(Enumeration { declared_type: Some(name), .. }) = &variable.kind
         else {
@@ -189,7 +189,7 @@ impl ModelDescription {
             .map_or(&[], |enumeration| &enumeration.items)
     }
 
-    /// How a real variable is shown: in its display unit, or as it is.
+    /// The display unit of a real variable, or its unit without one.
     pub fn display(&self, variable: &Variable) -> DisplayUnit {
         let plain = |name: &str| DisplayUnit { name: name.to_string(), factor: 1.0, offset: 0.0 };
         let Kind::Real(Real { unit: Some(unit), display_unit, .. }) = &variable.kind else {
@@ -205,7 +205,7 @@ impl ModelDescription {
 }
 
 impl Variable {
-    /// Number that an enumeration starts with.
+    /// Start value of an enumeration.
     pub fn start(&self) -> Option<f64> {
         match &self.kind {
             Kind::Enumeration(enumeration) => enumeration.start.map(f64::from),
@@ -213,7 +213,7 @@ impl Variable {
         }
     }
 
-    /// Least and largest value of a real variable.
+    /// Minimum and maximum of a real variable.
     pub fn range(&self) -> [f64; 2] {
         let (min, max) = match &self.kind {
             Kind::Real(real) => (real.min, real.max),

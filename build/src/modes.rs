@@ -1,4 +1,4 @@
-//! Prints the modes that are kept.
+//! `cargo ahv modes`: prints the kept modes.
 
 use crate::cli;
 use crate::table::{number, row, table};
@@ -11,8 +11,8 @@ use anyhow::Result;
 use serde_json::json;
 use std::f64::consts::TAU;
 
-/// The eigenproblem and its frequencies.
-pub fn solved_elements(options: &VehicleOptions) -> Result<serde_json::Value> {
+/// The eigenproblem and its frequencies as JSON.
+pub fn eigenproblem_json(options: &VehicleOptions) -> Result<serde_json::Value> {
     let (beam, oscillators) = structure(&Data::embedded()?, options)?;
     let masses: Vec<_> = oscillators
         .iter()
@@ -27,7 +27,7 @@ pub fn solved_elements(options: &VehicleOptions) -> Result<serde_json::Value> {
     }))
 }
 
-/// What a mode is called: flexible ones first, then those of the sloshing masses.
+/// Name of a mode; flexible modes come first, then slosh modes.
 pub fn name(mode: usize) -> String {
     match mode.checked_sub(FLEXIBLE) {
         None => format!("{} flexible", ordinal(mode)),
@@ -35,7 +35,7 @@ pub fn name(mode: usize) -> String {
     }
 }
 
-/// 1st for 0.
+/// Ordinal of an index: 1st for 0.
 pub fn ordinal(index: usize) -> &'static str {
     ["1st", "2nd", "3rd"].get(index).copied().unwrap_or("next")
 }
@@ -54,7 +54,7 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         }
     };
     if *elements {
-        outln!("{}", solved_elements(&setup.parameters.options)?)?;
+        outln!("{}", eigenproblem_json(&setup.parameters.options)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;
@@ -103,8 +103,12 @@ pub fn run(options: &cli::Modes) -> Result<()> {
         rows.push(cells);
     }
     out!("{}", table(&rows))?;
-    outln!("  slosh: displacement of the sloshing mass against its tank per unit of the mode")?;
-    outln!("  beam energy: share of the strain energy in the beam; the rest is in the springs")?;
+    outln!(
+        "  slosh: displacement of the sloshing mass relative to its tank, per unit of the mode"
+    )?;
+    outln!(
+        "  beam energy: share of the strain energy in the beam; the rest is in the slosh springs"
+    )?;
     outln!("\nDamping matrix, 1/s")?;
     let mut rows = vec![std::iter::once(String::new()).chain((0..count).map(name)).collect()];
     for i in 0..count {

@@ -1,4 +1,4 @@
-//! The user's own vehicle: the same command again, by a tool that is built with the user's data.
+//! Commands with the user's own vehicle: rebuilds the tool with the user's data and runs the command again.
 
 use crate::cli::Command;
 use crate::workspace::{MAX_DATA_BYTES, cargo, read_text, root, shown, target, variable};
@@ -9,8 +9,8 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Data of the user in place of ours. The tool and the library are built with them in target/own, and
-/// everything is written there.
+/// The user's data files. The tool and the library are built with them in target/own, where results are
+/// written too.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Your own vehicle")]
 pub struct OwnVehicle {
@@ -23,12 +23,12 @@ pub struct OwnVehicle {
     pub coefficients: Option<PathBuf>,
 }
 
-/// The build script's names for the files.
+/// Environment variables that pass the files to the build script.
 const VEHICLE: &str = "AHV_VEHICLE";
 const COEFFICIENTS: &str = "AHV_COEFFICIENTS";
 
-/// The user's data, where a command takes them.
-fn of(command: &Command) -> Option<&OwnVehicle> {
+/// The data files of a command that takes them.
+fn data_files(command: &Command) -> Option<&OwnVehicle> {
     match command {
         Command::Package(options) => Some(&options.own_vehicle),
         Command::Fly(options) => Some(&options.own_vehicle),
@@ -39,10 +39,10 @@ fn of(command: &Command) -> Option<&OwnVehicle> {
     }
 }
 
-/// Checks the user's files and runs a command with them; nothing if there are none, or if this tool
-/// is the one that was built with them.
+/// Checks the user's files and runs the command with them. Returns `None` without such files, or if this
+/// tool was built with them.
 pub fn run(command: &Command) -> Result<Option<ExitCode>> {
-    let Some(own) = of(command) else { return Ok(None) };
+    let Some(own) = data_files(command) else { return Ok(None) };
     let files = [
         (VEHICLE, &own.vehicle, check::<VehicleData> as fn(&Path) -> Result<PathBuf>),
         (COEFFICIENTS, &own.coefficients, check::<AeroData>),
@@ -64,12 +64,12 @@ pub fn run(command: &Command) -> Result<Option<ExitCode>> {
             command.env(name, check(file)?);
         }
     }
-    errln!("building with your data; the first time takes some minutes");
+    errln!("building with your data; the first build takes some minutes");
     let status = command.status().context("cannot start cargo")?;
     Ok(Some(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
 }
 
-/// Refuses a file that is not the data of a vehicle; where it is.
+/// Checks a data file and returns its absolute path.
 fn check<T: DataFile>(file: &Path) -> Result<PathBuf> {
     T::parse(&shown(file), &read_text(file, MAX_DATA_BYTES)?)?;
     file.canonicalize().with_context(|| format!("cannot find {}", shown(file)))

@@ -1,4 +1,4 @@
-//! Builds the libraries and puts the FMU together.
+//! `cargo ahv package`: builds the libraries and assembles the FMU.
 
 mod binary;
 mod cross_check;
@@ -29,17 +29,17 @@ use zip::ZipArchive;
 /// For which platforms an FMU is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Targets {
-    /// This machine's, with this machine's C library.
+    /// This machine, with its C library.
     Host,
-    /// Those of the file that is there, or this machine's: what a flight needs.
+    /// The platforms of the existing package, or Linux.
     AsExisting,
-    /// As many as this machine can build for.
+    /// All that this machine can build for.
     Possible,
-    /// A missing one is an error.
+    /// Linux and Windows; a missing one is an error.
     All,
 }
 
-/// A library that has been looked into.
+/// A library with its inspected binary.
 struct Library {
     platform: Platform,
     content: Vec<u8>,
@@ -50,9 +50,9 @@ struct Library {
 #[derive(Default)]
 struct Libraries {
     found: Vec<Library>,
-    /// Built elsewhere.
+    /// Whether they were given by the user.
     prebuilt: bool,
-    /// What could not be built as it should be, why, and what to do.
+    /// Libraries that could not be built as intended: what, why, and the remedy.
     missing: Vec<String>,
 }
 
@@ -89,7 +89,7 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
     package(libraries, output)
 }
 
-/// Writes an FMU and says what it is and needs.
+/// Writes an FMU; prints its platforms and their dependencies.
 fn package(libraries: Libraries, output: &Path) -> Result<()> {
     let mut files = contents(&libraries.found)?;
     let host = host()?;
@@ -108,14 +108,14 @@ fn package(libraries: Libraries, output: &Path) -> Result<()> {
     Ok(())
 }
 
-/// The FMU at its usual place, built anew.
+/// Builds the FMU at its default path.
 pub fn build_default(targets: Targets) -> Result<PathBuf> {
     let output = default_output(targets);
     build(&output, targets)?;
     Ok(output)
 }
 
-/// Whether there is an FMU that flies on Windows too.
+/// Whether a file is an FMU with a Windows library.
 fn has_windows(file: &Path) -> bool {
     names(file).is_ok_and(|names| {
         let folder = format!("binaries/{}/", WINDOWS.name);
@@ -130,19 +130,19 @@ fn names(file: &Path) -> Result<Vec<String>> {
     all.map(|index| Ok(zip.by_index_raw(index)?.name()?.into_owned())).collect()
 }
 
-/// Says what is missing for a Windows library.
+/// An error if the Windows library cannot be built here.
 pub fn can_build_for_windows() -> Result<()> {
     windows::toolchain().map(drop)
 }
 
-/// Where the FMU goes if nothing else is said. One for this machine alone does not replace one for all.
+/// Default path of the FMU. A package for this machine only does not replace one for all platforms.
 pub fn default_output(targets: Targets) -> PathBuf {
     let kind = if targets == Targets::Host { "-host" } else { "" };
     target().join(format!("{MODEL_IDENTIFIER}{kind}.fmu"))
 }
 
 impl Libraries {
-    /// Looks into a library and takes it if it is one for its platform.
+    /// Inspects a library and adds it if it is valid for its platform.
     fn add(&mut self, (platform, file): (Platform, PathBuf)) -> Result<&Binary> {
         if self.found.iter().any(|known| known.platform == platform) {
             bail!("there are two libraries for {}", platform.name);
@@ -154,21 +154,21 @@ impl Libraries {
         Ok(&self.found[self.found.len() - 1].binary)
     }
 
-    /// Compiles for this machine as Cargo does.
+    /// Builds for this machine, as plain `cargo build` does.
     fn host() -> Result<Self> {
         let mut libraries = Self::default();
         libraries.add((host()?, library::for_host()?))?;
         Ok(libraries)
     }
 
-    /// Compiles for Linux, and for Windows if it is wanted and this machine can.
+    /// Builds for Linux and, if `windows`, for Windows where possible.
     fn build(windows: bool) -> Result<Self> {
         let mut libraries = Self::default();
         let host = host()?;
         if host != LINUX {
             libraries = Self::host()?;
             libraries.missing.push(format!(
-                "only {} is in it: the FMU for Linux and Windows is built on Linux (x86-64)",
+                "contains only {}: packages for Linux and Windows are built on Linux (x86-64)",
                 host.name
             ));
             return Ok(libraries);
@@ -182,8 +182,8 @@ impl Libraries {
                 let library = library::for_host()?;
                 let glibc = libraries.add((LINUX, library))?.glibc.unwrap_or_default();
                 libraries.missing.push(format!(
-                    "linux64 is for machines like this one: it needs glibc {}.{}. For glibc 2.17 \
-                     the linker of zig is needed: {}",
+                    "linux64 needs glibc {}.{}, as this machine has; supporting glibc 2.17 requires \
+                     the linker of zig: {}",
                     glibc.0,
                     glibc.1,
                     console::error_chain(&error)
@@ -191,7 +191,7 @@ impl Libraries {
             }
         }
         if !windows {
-            let missing = "for Windows too: cargo ahv package";
+            let missing = "without Windows; to add it: cargo ahv package";
             libraries.missing.push(missing.to_string());
             return Ok(libraries);
         }
@@ -206,7 +206,7 @@ impl Libraries {
     }
 }
 
-/// Files of the FMU by their names.
+/// Files of the FMU, by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
 fn contents(libraries: &[Library]) -> Result<Files> {
@@ -226,12 +226,12 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     Ok(files)
 }
 
-/// A picture that the FMU carries.
+/// An image of the FMU.
 fn icon(name: &str) -> Result<Vec<u8>> {
     read(&root().join(format!("build/icons/{name}.png")), MAX_BINARY_BYTES)
 }
 
-/// What comes out when the FMU is flown; it is flown as it will be packaged.
+/// Inputs and outputs of the reference flight, flown with the package as it will be written.
 fn reference(files: &Files, prebuilt: bool) -> Result<Files> {
     let directory = TempDir::with_prefix("fmu-")?;
     let file = directory.path().join("ahv.fmu");
@@ -245,20 +245,20 @@ fn reference(files: &Files, prebuilt: bool) -> Result<Files> {
     Ok(found)
 }
 
-/// A library from elsewhere may end the process that flies it, so another process tries it first. What
-/// goes wrong in any other way the reference flight tells.
+/// Flies a prebuilt library in a child process first, because it may crash its process. Other failures are
+/// reported by the reference flight.
 fn run_in_child_process(file: &Path) -> Result<()> {
     let results = TempDir::with_prefix("fmu-")?;
     let mut fly = Command::new(env::current_exe()?);
     fly.args(["fly", "--stop", "0.1", "--fmu"]).arg(file).arg("--output").arg(results.path());
     let status = fly.output()?.status;
     if status.code().is_none() {
-        bail!("the library for this machine ends the process that flies it: {status}");
+        bail!("the library for this machine crashes the process that loads it: {status}");
     }
     Ok(())
 }
 
-/// Writes the FMU and says what it is.
+/// Writes the FMU; prints its size, platforms and checksum.
 fn write_fmu(files: Files, output: &Path) -> Result<()> {
     let bytes = zip(&files)?;
     write(output, &bytes)?;

@@ -1,26 +1,26 @@
-//! What the figure of a flight shows.
+//! Panels of the figure of a flight.
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 const MILLIMETRES: f64 = 1e3;
 
-/// Curves in one unit.
+/// A panel: curves in one unit.
 pub struct Panel {
     /// Quantity, with symbol and unit.
     pub title: &'static str,
-    /// Name of the variable, and its label if there are several.
+    /// Variable and, if there are several curves, label of each.
     pub curves: &'static [(&'static str, &'static str)],
-    /// Shown = value * factor.
+    /// Displayed value over value.
     pub factor: f64,
-    /// Show the deviation from the first value.
+    /// Whether the deviation from the first value is shown.
     pub deviation: bool,
-    /// Half of the smallest range shown, so that rounding noise stays flat.
+    /// Half of the smallest range shown, so that rounding errors are not magnified.
     pub min_half_range: f64,
 }
 
 const PANEL: Panel =
     Panel { title: "", curves: &[], factor: 1.0, deviation: false, min_half_range: 1e-3 };
 
-/// In reading order: what is done to the vehicle, then what it does.
+/// In reading order: inputs, then response.
 pub const PANELS: [Panel; 9] = [
     Panel {
         title: "Elevator in effect δe, deg",

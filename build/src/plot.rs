@@ -1,4 +1,4 @@
-//! The figure of a flight: a panel for everything that moves, for screen (SVG) and print (PNG).
+//! The figure of a flight: a panel for each group of signals that vary, as SVG and PNG.
 
 use crate::curve::{Curve, dashes};
 use crate::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID, decimals, label};
@@ -15,19 +15,19 @@ use std::path::Path;
 const WIDTH: u32 = 800;
 const ROW_HEIGHT: u32 = 210;
 const TITLE_HEIGHT: u32 = 30;
-/// Of a line of the title.
+/// Height of a line of the title.
 const LINE_HEIGHT: u32 = 24;
 const MARGIN: u32 = 6;
-/// Room for the numbers of the vertical axis.
+/// Width of the labels of the vertical axis.
 const AXIS_WIDTH: u32 = 66;
-/// Below the panels.
+/// Height of the title of the time axis.
 const TIME_AXIS_HEIGHT: u32 = 22;
 const TEXT_SIZE: u32 = 16;
-/// Most characters in a line of the title.
+/// Longest line of the title, characters.
 const MAX_TITLE_CHARACTERS: usize = 80;
-/// Most labels on a vertical axis.
+/// Labels on a vertical axis.
 const MAX_LABELS: usize = 6;
-/// Columns of pixels of the PNG for one at scale one.
+/// PNG pixels per pixel at scale one.
 const PNG_PIXELS_PER_PIXEL: usize = 2;
 
 /// flight.svg and flight.png.
@@ -43,7 +43,7 @@ pub fn figures(record: &Record, title: &str, directory: &Path) -> Result<Files> 
     figure::files(&Flight { title, panels }, (WIDTH, height), &directory.join("flight"))
 }
 
-/// Panels with their curves: of what moves, or all.
+/// Panels with their curves: those that vary, or `all`.
 fn moving(record: &Record, all: bool) -> Vec<(Panel, Vec<Curve>)> {
     PANELS
         .into_iter()
@@ -94,7 +94,7 @@ impl Drawing for Flight {
         let cuts = (1..=last as u32).map(|row| (ROW_HEIGHT * row * scale) as i32);
         let cells = body.split_by_breakpoints([0; 0], cuts.collect::<Vec<_>>());
         for (number, (row, cell)) in rows.zip(&cells).enumerate() {
-            // One that is left over has the whole width.
+            // A single panel in the last row has the full width.
             for ((panel, curves), half) in row.iter().zip(cell.split_evenly((1, row.len()))) {
                 draw_panel(&half, panel, curves, scale, number == last)?;
             }
@@ -190,7 +190,7 @@ fn draw_head<B: DrawingBackend>(
     Ok(())
 }
 
-/// Range with some air around the curves, and never smaller than twice `least`.
+/// Range with a margin around the curves, never smaller than twice `least`.
 fn range(curves: &[Curve], least: f64) -> [f64; 2] {
     let [min, max] = curves
         .iter()

@@ -1,4 +1,4 @@
-//! Prints poles and transmission zeros.
+//! `cargo ahv poles`: prints poles and transmission zeros.
 
 use crate::cli::Poles;
 use crate::modes::ordinal;
@@ -75,7 +75,7 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     let linear = [LinearModel::new, LinearModel::with_imu_gamma]
         .map(|linear| linear(vehicle, &trim.state, &trim.control));
     let roots = |values: Vec<Complex<f64>>| -> Vec<Root> {
-        // Of a pair the upper half stands for both.
+        // The upper half of a pair represents both.
         let upper = values.into_iter().filter(|root| root.im >= 0.0);
         upper.map(|root| Root { re: root.re, im: root.im }).collect()
     };
@@ -86,8 +86,8 @@ fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     })
 }
 
-/// Every pole with its name, in the order of the paper's tables. A kept mode takes the pair whose
-/// frequency is nearest to its own; what remains belongs to the rigid body.
+/// Names the poles, in the order of the paper's tables. Each mode takes the pair with the nearest
+/// frequency; the others are rigid-body poles.
 fn named(mut roots: Vec<Root>, omega: &[f64]) -> Vec<(String, Root)> {
     let mut modes: Vec<(String, Root)> = Vec::new();
     for (mode, &omega) in omega.iter().enumerate() {
@@ -107,7 +107,7 @@ fn named(mut roots: Vec<Root>, omega: &[f64]) -> Vec<(String, Root)> {
     let fast = if roots.first().is_some_and(|root| root.im > 0.0) { 1 } else { 2 };
     let short = roots.drain(..fast.min(roots.len())).map(|root| ("short period".into(), root));
     let mut poles: Vec<_> = short.collect();
-    // Of the three slow ones a pair is the phugoid; the height mode is the slowest real pole.
+    // Of the three slow poles a pair is the phugoid; the height mode is the slowest real pole.
     let height = roots.iter().rposition(|root| root.im == 0.0).map(|i| roots.remove(i));
     let mut all: Vec<_> = roots.into_iter().map(|root| ("phugoid".to_string(), root)).collect();
     all.append(&mut poles);
@@ -116,7 +116,7 @@ fn named(mut roots: Vec<Root>, omega: &[f64]) -> Vec<(String, Root)> {
     all
 }
 
-/// Damping ratio; none for a pole at the origin.
+/// Damping ratio; empty for a pole at the origin.
 fn ratio(root: Root) -> String {
     match root.frequency() {
         ..NOISE => String::new(),
@@ -124,11 +124,11 @@ fn ratio(root: Root) -> String {
     }
 }
 
-/// Time in which a motion doubles or halves, s.
+/// Time to double or halve the amplitude, s.
 fn doubling(root: Root) -> String {
     let verb = if root.re > 0.0 { "doubles" } else { "halves" };
     match root.re.abs() {
-        ..NOISE => "stays".to_string(),
+        ..NOISE => "constant".to_string(),
         rate => format!("{verb} in {}", number(LN_2 / rate)),
     }
 }
@@ -162,8 +162,8 @@ fn print_side_by_side(all: &[Linearised]) -> Result<()> {
         let names = all.iter().map(|one| one.configuration.clone());
         std::iter::once(title.to_string()).chain(names).collect::<Vec<_>>()
     };
-    // The configuration with most poles names the rows; a name may stand twice (two real poles of
-    // one mode), so the n-th of a name stands beside the n-th.
+    // The configuration with most poles names the rows. A name may occur twice (two real poles of one mode):
+    // the n-th pole of a name is in the n-th row of that name.
     let Some(longest) = all.iter().max_by_key(|one| one.poles.len()) else { return Ok(()) };
     let mut names: Vec<&String> = longest.poles.iter().map(|(name, _)| name).collect();
     for one in all {

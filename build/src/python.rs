@@ -1,4 +1,4 @@
-//! Python programs with exactly the locked packages.
+//! Python environments with exactly the packages of a lock file.
 
 use crate::workspace::{MAX_TEXT_BYTES, check, read, root, shown, target, write};
 use anyhow::{Context, Result};
@@ -7,14 +7,14 @@ use std::process::Command;
 
 /// A virtual environment in the target directory.
 pub struct Environment {
-    /// Where its programs are.
+    /// Directory of its programs.
     pub programs: PathBuf,
     pub python: PathBuf,
 }
 
-/// The environment `name` with the packages of a lock file; made if it is not there yet.
+/// The environment `name` with the packages of a lock file; created if it is missing or out of date.
 ///
-/// A copy of the lock, written last, says that the environment is complete.
+/// A copy of the lock file, written last, marks a complete environment.
 pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
     let wanted = read(lock, MAX_TEXT_BYTES)?;
     let directory = target().join(name);
@@ -24,7 +24,7 @@ pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
     if stamp.exists() && python.exists() && read(&stamp, MAX_TEXT_BYTES)? == wanted {
         return Ok(Environment { programs, python });
     }
-    errln!("making {} from {}", shown(&directory), shown(lock));
+    errln!("creating {} from {}", shown(&directory), shown(lock));
     check(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&directory))
         .context("a virtual environment needs Python; on Debian: apt-get install python3-venv")?;
     check(
@@ -38,7 +38,7 @@ pub fn environment(name: &str, lock: &Path) -> Result<Environment> {
     Ok(Environment { programs, python })
 }
 
-/// The interpreter for the tests of the FMU, and for what is measured in Python.
+/// The Python interpreter for FMU tests and benchmarks.
 pub fn python() -> Result<PathBuf> {
     Ok(environment("venv", &root().join("tests/fmu/requirements.lock"))?.python)
 }

@@ -1,15 +1,15 @@
-//! From the pixels of a large drawing to a PNG.
+//! Reduces a large drawing and encodes it as PNG.
 
 use anyhow::Result;
 
-/// Averages a drawing over squares of this many pixels, because the drawing itself has hard edges,
-/// and writes it as a PNG. Three bytes per pixel.
+/// Averages a drawing over squares of `square` pixels, as antialiasing, and encodes it as PNG. Three bytes
+/// per pixel.
 pub fn png(pixels: &[u8], width: u32, square: u32) -> Result<Vec<u8>> {
     let height = pixels.len() as u32 / 3 / width;
     encode(&average(pixels, width as usize, square as usize), width / square, height / square)
 }
 
-/// Every square of pixels becomes one.
+/// Replaces each square of pixels by its mean.
 fn average(pixels: &[u8], width: usize, square: usize) -> Vec<u8> {
     let height = pixels.len() / 3 / width;
     let mut small = Vec::with_capacity(pixels.len() / square / square);

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use std::fmt::Write;
 
-/// One row per communication point, one column per variable; the first column is the time.
+/// Rows are communication points, columns are variables; the first column is the time.
 #[derive(Debug)]
 pub struct Record {
     pub names: Vec<String>,
@@ -21,7 +21,7 @@ impl Record {
         self.rows.iter().map(move |row| row[column])
     }
 
-    /// CSV with a header of names. Every number reads back as the same double.
+    /// CSV with a header of names. Every number can be read back exactly.
     pub fn csv(&self) -> Result<String> {
         let mut text = self.names.join(",");
         text.push('\n');

@@ -1,5 +1,4 @@
-//! The commands of crates/research: nothing that flies needs them, so they are compiled when they are
-//! first called.
+//! Runs the commands of crates/research, which is compiled at its first command: flying does not need it.
 
 use crate::cli::Research;
 use crate::workspace::{cargo, root};
@@ -8,16 +7,16 @@ use std::env;
 use std::ffi::OsString;
 use std::process::{Command, ExitCode};
 
-/// Runs one with full optimisation, in the current directory.
-pub fn run(name: &str, passed: &Research) -> Result<ExitCode> {
-    let status = command(name, &passed.arguments)
+/// Runs a command with full optimisation, in the current directory.
+pub fn run(name: &str, options: &Research) -> Result<ExitCode> {
+    let status = command(name, &options.arguments)
         .current_dir(env::current_dir()?)
         .status()
         .context("cannot start cargo")?;
     Ok(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-/// The command itself.
+/// The process that runs a command.
 pub fn command(name: &str, arguments: &[OsString]) -> Command {
     let mut command = cargo();
     command

@@ -1,4 +1,4 @@
-//! Parameters given as `name=value`, checked against what the FMU says of itself.
+//! Parameters given as `name=value`, checked against the model description.
 
 use crate::model_description::{Causality, Kind, ModelDescription, Real, Variable};
 use ahv::short::short;
@@ -20,7 +20,7 @@ pub fn parse<'a>(model: &'a ModelDescription, texts: &'a [String]) -> Result<Vec
         let new = parse_one(model, text)?;
         let same = |known: &&Setting| known.variable.name == new.variable.name;
         if let Some(known) = settings.iter().find(same) {
-            bail!("--set {text}: {} is there twice, see --set {}", new.variable.name, known.text);
+            bail!("--set {text}: {} is already set by --set {}", new.variable.name, known.text);
         }
         settings.push(new);
     }
@@ -52,7 +52,7 @@ fn parse_one<'a>(model: &'a ModelDescription, text: &'a str) -> Result<Setting<'
     }
 }
 
-/// The value as a number, or what would be accepted.
+/// The value as a number, or a description of accepted values.
 fn number(model: &ModelDescription, variable: &Variable, text: &str) -> Result<f64, String> {
     match &variable.kind {
         Kind::Real(real) => real_number(model, variable, real, text),
@@ -86,7 +86,7 @@ fn real_number(
 ) -> Result<f64, String> {
     let display = model.display(variable);
     let unit = variable.unit();
-    // The unit behind the number, if any: the variable's own or the one it is shown in.
+    // A unit may follow the number: the variable's unit or its display unit.
     let (digits, shown) = match text.strip_suffix(display.name.as_str()) {
         Some(digits) if display.name != "1" && display.name != unit => (digits, true),
         _ => (text.strip_suffix(unit).filter(|_| unit != "1").unwrap_or(text), false),

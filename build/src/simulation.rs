@@ -1,4 +1,4 @@
-//! Steps an FMU through a manoeuvre and keeps a record.
+//! Simulates a manoeuvre with an FMU and records the time history.
 
 use crate::manoeuvre::Manoeuvre;
 use crate::master::{Instance, Step};
@@ -8,22 +8,22 @@ use ahv::short::short;
 use anyhow::{Result, bail};
 use std::time::{Duration, Instant};
 
-/// Steps of which a record is kept; each takes some 250 bytes of memory and 600 of the CSV file.
+/// Limit on recorded steps; each takes about 250 bytes of memory and 600 of the CSV file.
 const MAX_STEPS: usize = 1_000_000;
-/// Communication points closer than this share of a step are one.
+/// Communication points closer than this fraction of a step coincide.
 const SAME_INSTANT: f64 = 1e-6;
 
-/// How far a flight came.
+/// Result of a simulation.
 pub struct Simulated {
     pub record: Record,
-    /// Time step_time in the FMU's steps.
+    /// Wall-clock time in fmi2DoStep.
     pub step_time: Duration,
-    /// Why it ended early.
+    /// Why the FMU ended the flight early, if it did.
     pub discard_reason: Option<String>,
 }
 
-/// From initialisation mode to the stop time or an early end. Rows hold the inputs at their time and
-/// the `recorded` variables with them; where an input jumps there are two, before and after.
+/// Simulates from initialisation mode to the last of `points` or an early end. The record has a row of the
+/// `recorded` variables per communication point; where an input jumps, one before and one after it.
 pub fn run<'a>(
     instance: &mut Instance,
     manoeuvre: &Manoeuvre,
@@ -64,13 +64,13 @@ pub fn run<'a>(
     Ok(Simulated { record, step_time, discard_reason })
 }
 
-/// Sets the inputs that an instant is reached with.
+/// Sets the inputs at an instant, before a jump.
 fn set_inputs_before(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<()> {
     let values = manoeuvre.before(time).unwrap_or_default();
     manoeuvre.inputs.iter().zip(values).try_for_each(|(input, value)| instance.set(input, value))
 }
 
-/// Sets how the inputs go on from there; true if one jumps.
+/// Sets inputs and slopes at an instant, after a jump. Returns whether an input jumps.
 fn set_inputs_after(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -> Result<bool> {
     let (Some(before), Some(after)) = (manoeuvre.before(time), manoeuvre.after(time)) else {
         return Ok(false);
@@ -84,8 +84,8 @@ fn set_inputs_after(instance: &mut Instance, manoeuvre: &Manoeuvre, time: f64) -
     Ok(before != after.values)
 }
 
-/// The ends of all steps: multiples of the step, the stop time, and the rows of a manoeuvre, so that
-/// the inputs are linear during each step. `rows` do not decrease.
+/// End times of all steps: multiples of the step, the stop time, and the rows of a manoeuvre, so that
+/// inputs are linear within each step. `rows` must not decrease.
 pub fn communication_points(
     step: f64,
     stop: f64,
@@ -93,15 +93,14 @@ pub fn communication_points(
 ) -> Result<Vec<f64>> {
     if stop / step > MAX_STEPS as f64 {
         bail!(
-            "--step {} s makes {:.0e} steps in {} s; the record holds {:.0e}",
+            "--step {} s gives {:.0e} steps in {} s; at most {:.0e} can be recorded",
             short(step),
             stop / step,
             short(stop),
             MAX_STEPS as f64
         );
     }
-    // 0.01 is no binary number: dividing by a whole number of steps per second gives the doubles
-    // nearest to 0.01, 0.02, ..., multiplying does not.
+    // 0.01 is not a binary number: n / 100 is the double nearest to the multiple, n * 0.01 is not.
     let rate = (1.0 / step).round();
     let exact = 1.0 / rate == step;
     let multiple = |n: f64| if exact { n / rate } else { n * step };
@@ -116,7 +115,7 @@ pub fn communication_points(
     let grid = (1..count).map(|n| multiple(n as f64)).chain([stop]).filter(apart);
     let mut points: Vec<f64> = grid.chain(rows.iter().copied()).collect();
     if points.len() > 2 * MAX_STEPS {
-        bail!("{} rows before {stop} s; a flight takes {MAX_STEPS}", rows.len());
+        bail!("{} rows before {stop} s; the limit is {MAX_STEPS}", rows.len());
     }
     points.sort_by(f64::total_cmp);
     Ok(points)
@@ -140,7 +139,7 @@ mod tests {
         assert_eq!(points(1.0, 0.5, &[]), [0.5]);
         let error = communication_points(1e-7, 1.0, std::iter::empty()).unwrap_err();
         assert!(
-            error.to_string().contains("s makes 1e7 steps in 1 s; the record holds 1e6"),
+            error.to_string().contains("s gives 1e7 steps in 1 s; at most 1e6 can be recorded"),
             "{error}"
         );
     }

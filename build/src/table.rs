@@ -1,7 +1,7 @@
-//! Tables of text.
+//! Text tables.
 
-/// Rows of cells, columns aligned: the first to the left, the others to the right. The first row
-/// is a header.
+/// Formats rows with aligned columns: the first to the left, the others to the right. The first row is
+/// the header.
 pub fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
@@ -28,10 +28,10 @@ pub fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// What is smaller is rounding in the units that are shown.
+/// In the displayed units, smaller values are rounding errors.
 pub const NOISE: f64 = 1e-9;
 
-/// A number with five significant digits, as an engineer would write it.
+/// A number with five significant digits.
 pub fn number(value: f64) -> String {
     if value.abs() < NOISE {
         return "0".to_string();

@@ -1,4 +1,4 @@
-//! Checks everything, in the order in which mistakes are cheapest to find.
+//! `cargo ahv test`: checks everything, quick checks first.
 
 use crate::cli::{Describe, Test};
 use crate::package::Targets;
@@ -14,14 +14,14 @@ use std::time::Instant;
 /// Which of the two levels a step belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
-    /// All of Rust, and the FMU in FMPy: minutes.
+    /// Rust, and the FMU in FMPy: minutes.
     Always,
     /// Other tools, masters and platforms.
     Thorough,
 }
 use Level::{Always, Thorough};
 
-/// A step: its name, when it runs, what it does.
+/// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
 const STEPS: [Step; 17] = [
@@ -36,7 +36,7 @@ const STEPS: [Step; 17] = [
         check(doc.env("RUSTDOCFLAGS", "-D warnings"))
     }),
     ("Rust tests", Always, |_| {
-        // The long fuzz has a step of its own.
+        // The long fuzz is a separate step.
         check(
             cargo()
                 .args(["test", "--workspace", "--no-fail-fast"])
@@ -58,11 +58,11 @@ const STEPS: [Step; 17] = [
     ("valgrind", Thorough, |_| abi_stress::valgrind()),
     ("bench runs", Thorough, |_| bench()),
     (WINDOWS, Thorough, |options| match missing_for_windows() {
-        // Programs in one wine start one server: one after the other.
+        // All programs in wine share one server, so they run one after the other.
         None => pytest(&["tests/wine", "--numprocesses", "0"]),
         Some(missing) if options.all_targets => bail!("{missing}"),
         Some(missing) => {
-            errln!("left out: {missing}");
+            errln!("skipped: {missing}");
             Ok(())
         }
     }),
@@ -102,13 +102,13 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nExamples, other masters, sanitizer, valgrind, Windows: cargo ahv test --thorough"
+            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows; see --thorough"
         );
     }
     Ok(())
 }
 
-/// What has to be on the machine, and the Debian package that brings it.
+/// Checks for required programs, and names the Debian packages of missing ones.
 fn prerequisites(options: &Test) -> Result<()> {
     const NEEDED: [(&str, &[&str], &str); 5] = [
         ("cc", &["--version"], "gcc"),
@@ -119,7 +119,7 @@ fn prerequisites(options: &Test) -> Result<()> {
         ),
         ("python3", &["-c", "import venv"], "python3-venv"),
         ("python3", &["-c", "import ensurepip"], "python3-venv"),
-        // Ecos, one of the masters of the thorough tests, is linked with it.
+        // Ecos, a master of the thorough tests, is linked with it.
         ("python3", &["-c", "import ctypes; ctypes.CDLL('libtbb.so.12')"], "libtbb12"),
     ];
     let needed = if options.thorough { NEEDED.len() } else { NEEDED.len() - 1 };
@@ -135,7 +135,7 @@ fn prerequisites(options: &Test) -> Result<()> {
     Ok(())
 }
 
-/// Tests of the packaged FMU in Python, on all processors.
+/// Runs Python tests of the packaged FMU on all processors.
 fn pytest(arguments: &[&str]) -> Result<()> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
     check(
@@ -148,13 +148,13 @@ fn pytest(arguments: &[&str]) -> Result<()> {
     )
 }
 
-/// What the tests of the Windows library need and this machine does not have.
+/// The first missing prerequisite for tests of the Windows library.
 fn missing_for_windows() -> Option<String> {
     if let Err(error) = package::can_build_for_windows() {
         return Some(console::error_chain(&error));
     }
     (!works("wine", &["--version"]))
-        .then(|| "wine runs the library; on Debian: apt-get install wine wine64".to_string())
+        .then(|| "wine is missing; on Debian: apt-get install wine wine64".to_string())
 }
 
 fn python_lints() -> Result<()> {
@@ -166,7 +166,7 @@ fn python_lints() -> Result<()> {
     Ok(())
 }
 
-/// Our declarations against the official headers, of which FMPy brings a copy.
+/// Compares our declarations with the official headers, which FMPy contains.
 fn fmi_headers() -> Result<()> {
     let python = python()?;
     let find = "import fmpy, pathlib; print(pathlib.Path(fmpy.__file__).parent / 'c-code')";
@@ -179,7 +179,7 @@ fn fmi_headers() -> Result<()> {
     )
 }
 
-/// Rough numbers: everything that is measured can be.
+/// Runs the benchmarks quickly, to see that they work.
 fn bench() -> Result<()> {
     let output = target().join("bench/quick").into_os_string();
     let options = ["--quick", "--only", "precision,ensemble", "--output"].map(OsString::from);

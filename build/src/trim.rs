@@ -1,4 +1,4 @@
-//! Prints trimmed flight.
+//! `cargo ahv trim`: prints the trimmed flight.
 
 use crate::cli::{Analyse, Set};
 use crate::model_description::ModelDescription;
@@ -11,17 +11,17 @@ use anyhow::{Result, anyhow};
 use fmi_model::table::find;
 use serde_json::json;
 
-/// The model as a master sees it; `--set` is checked against it here as in `fly`.
+/// The model description, against which `--set` is checked as in `fly`.
 pub fn model() -> Result<ModelDescription> {
     ModelDescription::parse(&describe::xml()?)
 }
 
-/// A flight with the parameters of the command line.
+/// A flight with the parameters set on the command line.
 pub fn flight(model: &ModelDescription, set: &Set) -> Result<Flight> {
     Ok(setup(model, set)?.fly().map_err(Message)?)
 }
 
-/// The parameters of the command line.
+/// The set-up with the parameters set on the command line.
 pub fn setup(model: &ModelDescription, set: &Set) -> Result<Setup> {
     let mut setup = Setup::new()?;
     for setting in settings::parse(model, &set.settings)? {
@@ -32,7 +32,7 @@ pub fn setup(model: &ModelDescription, set: &Set) -> Result<Setup> {
     Ok(setup)
 }
 
-/// Name of the configuration that flies.
+/// Name of the configuration.
 pub fn configuration(setup: &Setup) -> String {
     format!("{:?}", setup.parameters.options.configuration)
 }
@@ -49,7 +49,7 @@ pub fn run(options: &Analyse) -> Result<()> {
     let [delta_e, phi] = trim.control;
     let elastic = |mode: usize| trim.state[eta(mode)];
 
-    // Name, value in SI, unit, and how it is shown.
+    // Name, SI value, SI unit, displayed unit and its factor.
     let degrees = ("deg", 1f64.to_degrees());
     let millimetres = ("mm", 1e3);
     let mut rows = vec![
@@ -87,7 +87,7 @@ pub fn run(options: &Analyse) -> Result<()> {
     for (name, value, _, (unit, factor)) in rows {
         text.push(vec![name.to_string(), number(value * factor), unit.to_string()]);
     }
-    let kind = if setup.parameters.trim { "Trimmed flight" } else { "Start, not trimmed" };
+    let kind = if setup.parameters.trim { "Trimmed flight" } else { "Initial state, not trimmed" };
     outln!("{kind}, {}; forces per metre of width", configuration(&setup))?;
     out!("{}", table(&text))?;
     Ok(())

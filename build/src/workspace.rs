@@ -1,4 +1,4 @@
-//! Where things are.
+//! Locations of repository and build products; running Cargo.
 
 mod files;
 
@@ -16,7 +16,7 @@ use std::sync::OnceLock;
 /// Name of the root package.
 const PACKAGE: &str = "ahv-fmu";
 
-/// The repository. It is looked for when the tool runs: a copied or moved tree works on itself.
+/// The repository. It is searched for at run time, so that a copied or moved tree works on itself.
 pub fn root() -> &'static Path {
     static ROOT: OnceLock<PathBuf> = OnceLock::new();
     ROOT.get_or_init(|| search(&places()).unwrap_or_default())
@@ -31,14 +31,14 @@ pub fn locate() -> Result<()> {
     Ok(())
 }
 
-/// What the environment says to this tool; no result depends on it.
+/// An environment variable that no result depends on.
 #[expect(clippy::disallowed_methods, reason = "the one place that reads it")]
 pub fn variable(name: &str) -> Option<OsString> {
     env::var_os(name)
 }
 
-/// Where to look, best first: what Cargo says, the tool's own place, the current directory. The tool
-/// lies elsewhere if `CARGO_TARGET_DIR` is set.
+/// Where to search, in order: the manifest directory from Cargo, the location of the tool, which is outside
+/// the repository if `CARGO_TARGET_DIR` is set, and the current directory.
 fn places() -> Vec<PathBuf> {
     let cargo = variable("CARGO_MANIFEST_DIR").map(PathBuf::from);
     [cargo, env::current_exe().ok(), env::current_dir().ok()].into_iter().flatten().collect()
@@ -60,18 +60,18 @@ fn is_root(directory: &Path) -> bool {
     name == Some(PACKAGE)
 }
 
-/// Where build products go.
+/// Directory of build products.
 pub fn target() -> PathBuf {
     target_by_environment().unwrap_or_else(|| root().join("target"))
 }
 
-/// Cargo takes it from the directory in which it was called.
+/// `CARGO_TARGET_DIR`, relative to the current directory as in Cargo.
 fn target_by_environment() -> Option<PathBuf> {
     let directory = variable("CARGO_TARGET_DIR")?;
     std::path::absolute(directory).ok()
 }
 
-/// The Cargo that runs this tool, started in the repository.
+/// The Cargo that runs this tool, to be started in the repository.
 pub fn cargo() -> Command {
     let mut command = Command::new(variable("CARGO").unwrap_or_else(|| "cargo".into()));
     command.current_dir(root());
@@ -81,13 +81,13 @@ pub fn cargo() -> Command {
     command
 }
 
-/// How a path is shown: short if it lies below the current directory.
+/// A path for messages, relative to the current directory if it is below it.
 pub fn shown(path: &Path) -> String {
     let here = env::current_dir().unwrap_or_default();
     path.strip_prefix(here).unwrap_or(path).display().to_string()
 }
 
-/// Runs a command that has to succeed.
+/// Runs a command; its failure is an error.
 pub fn check(command: &mut Command) -> Result<()> {
     let program = command.get_program().to_string_lossy().into_owned();
     let first = command.get_args().next().unwrap_or_default().to_string_lossy().into_owned();
@@ -98,7 +98,7 @@ pub fn check(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Whether a program can be run like this.
+/// Whether a program with these arguments runs and succeeds.
 pub fn works(program: &str, arguments: &[&str]) -> bool {
     Command::new(program).args(arguments).output().is_ok_and(|output| output.status.success())
 }

@@ -1,4 +1,4 @@
-//! The tool from outside, as a user types it.
+//! The commands of the tool, run as a user runs them.
 
 mod tool;
 
@@ -69,7 +69,7 @@ fn settings_are_refused_with_what_would_be_accepted() {
 fn a_parameter_that_is_set_twice_is_refused() {
     let trim = ahv(&["trim", "--set", "mach0=8", "--set", "gamma0=0", "--set", "mach0=9"]);
     assert!(!trim.ok);
-    let expected = "error: --set mach0=9: mach0 is there twice, see --set mach0=8";
+    let expected = "error: --set mach0=9: mach0 is already set by --set mach0=8";
     assert!(trim.err.starts_with(expected), "{}", trim.err);
 }
 

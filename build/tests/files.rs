@@ -1,4 +1,4 @@
-//! What the tool reads and writes: rubbish is refused, and what was there stays until the new is whole.
+//! Files that the tool reads and writes: invalid input is refused, and a failed write keeps the old file.
 
 mod tool;
 
@@ -45,7 +45,7 @@ fn rubbish_replaces_no_fmu() {
     fs::write(&half, &whole[..whole.len() / 2]).unwrap();
     let tool = PathBuf::from(env!("CARGO_BIN_EXE_ahv"));
     for (platform, file, told) in [
-        ("linux64", &text, "README.md: this is no shared library"),
+        ("linux64", &text, "README.md: this is not a shared library"),
         ("linux64", &half, "half.so: "),
         ("linux64", &tool, "linux64 needs the functions of FMI 2.0: this library has none"),
         ("win64", &library(), "win64 needs Pe for X86_64, this is Elf for X86_64"),
@@ -61,7 +61,7 @@ fn rubbish_replaces_no_fmu() {
 
 #[test]
 #[cfg(target_os = "linux")]
-fn a_library_that_ends_its_process_does_not_end_the_tool() {
+fn a_library_that_crashes_its_process_does_not_crash_the_tool() {
     use object::{Object, ObjectSection};
     let (directory, _, fmu) = scratch();
     fs::write(&fmu, "good").unwrap();
@@ -74,7 +74,7 @@ fn a_library_that_ends_its_process_does_not_end_the_tool() {
     let option = format!("linux64={}", broken.display());
     let done = ahv(&["package", "--library", &option, "--output", fmu.to_str().unwrap()]);
     assert!(
-        !done.ok && done.err.contains("ends the process that flies it: signal"),
+        !done.ok && done.err.contains("crashes the process that loads it: signal"),
         "{}",
         done.err
     );
@@ -168,24 +168,21 @@ fn a_foreign_fmu_is_looked_into_before_it_is_loaded() {
     for (content, told) in [
         (
             with(&good, library, |name, whole| (name.into(), whole[..10_000].into())),
-            "ahv.so: this is no",
+            "ahv.so: this is not a",
         ),
-        (with(&good, library, |name, _| (name.into(), b"text".into())), "ahv.so: this is no"),
+        (with(&good, library, |name, _| (name.into(), b"text".into())), "ahv.so: this is not a"),
         (
             with(&good, library, |_, whole| ("../../ahv.so".into(), whole)),
-            "may lead out of the folder",
+            "may lead out of the target folder",
         ),
         (with(&good, xml, |name, _| (name.into(), vec![b'x'; 100_000])), "cannot be read"),
-        (with(&good, xml, |name, _| (name.into(), vec![0xff])), "is not a text in UTF-8"),
+        (with(&good, xml, |name, _| (name.into(), vec![0xff])), "is not UTF-8 text"),
         (
             edit("modelIdentifier=\"ahv\"", "modelIdentifier=\"../ahv\""),
-            "\"../ahv\" is not the name",
+            "\"../ahv\" is not a C identifier",
         ),
-        (
-            edit("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""),
-            "is for FMI 3.0; one for FMI 2.0 is needed",
-        ),
-        (edit("CoSimulation", "Other"), "is not for co-simulation"),
+        (edit("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""), "is for FMI 3.0; FMI 2.0 is needed"),
+        (edit("CoSimulation", "Other"), "does not support co-simulation"),
     ] {
         let file = directory.path().join("foreign.fmu");
         fs::write(&file, content).unwrap();

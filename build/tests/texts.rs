@@ -1,4 +1,4 @@
-//! What the pages state and the code decides: variables, limits, methods.
+//! README.md and the documentation agree with the code: variables, limits, methods.
 
 use ahv::flight::{INPUT_ORDER, Setup};
 use ahv::solve::DOP853;
@@ -14,7 +14,7 @@ fn read(file: &str) -> String {
     fs::read_to_string(root.join(file)).unwrap()
 }
 
-/// A page as one line, as it is read.
+/// A page as one line.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

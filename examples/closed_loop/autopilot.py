@@ -1,4 +1,4 @@
-"""The autopilot as an FMU, made by PythonFMU: measured and wanted values in, commands out."""
+"""The autopilot as an FMU, made by PythonFMU: measurements and references in, commands out."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ COMMANDS = ("delta_e", "phi")
 
 
 class Autopilot(Fmi2Slave):
-    """Its period is that of its design: it refuses any other communication step."""
+    """The communication step must be the period of the design; any other is refused."""
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)

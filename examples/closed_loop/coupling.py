@@ -1,7 +1,7 @@
-"""What the communication step and the interpolation of signals do to the closed loop.
+"""Effect of communication step and extrapolation of signals on the closed loop.
 
-A continuous LQG autopilot, integrated exactly within each step, is coupled to the FMU by a master
-of a page: steps of one size, or steps that are tried, judged, rejected and taken back.
+A continuous LQG autopilot, integrated exactly within each step, is coupled to the FMU by a small
+master with constant steps, or with step-size control that can reject steps.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from matplotlib.ticker import NullFormatter
 HOLD, COMMANDS, BOTH = "held", "commands move", "both move"
 STEPS_S = [0.08, 0.04, 0.02, 0.01, 0.005, 0.0025]
 REFERENCE_S = 0.00125
-# The gamma wanted from the start, rad: a step, so that the error control has something to do.
+# Step command of gamma, rad, which makes the step-size control work.
 GAMMA = 0.5 * design.DEG
-# Largest share of the error that a step may be stretched or shrunk by, and the usual safety.
+# Limits on the change of the step size, and the usual safety factor.
 SHRINK, STRETCH, SAFETY = 0.2, 2.0, 0.9
 
 
 class Pilot:
-    """x' = A x + B [y; wanted], u = C x, with y moving linearly within a step."""
+    """x' = A x + B [y; reference], u = C x, with y linear within a step."""
 
     def __init__(self, folder: str) -> None:
         full = design.model(folder)
@@ -53,7 +53,7 @@ class Pilot:
         gain, _, _ = ct.lqr(
             plant, np.diag(weight), np.diag(1 / design.EFFORT**2), integral_action=c[:2]
         )
-        # White noise of the same power as the sampled one of the design.
+        # White noise with the power of the sampled noise of the design.
         noise = b @ np.diag(design.INPUT_NOISE**2) @ b.T * design.PERIOD_S
         for name, deviation in design.STATE_NOISE.items():
             i = names.index(name)
@@ -72,10 +72,10 @@ class Pilot:
         self._known: dict[float, np.ndarray] = {}
 
     def step(self, measured: np.ndarray, rates: np.ndarray, size_s: float) -> None:
-        """Integrate exactly over a step; `measured` moves by `rates` per second."""
+        """Integrate exactly over a step; `measured` varies by `rates` per second."""
         size = len(self.x)
         if size_s not in self._known:
-            # Van Loan: x, a constant drive and its slope in one exponential.
+            # Van Loan: x, a constant input and its slope in one matrix exponential.
             whole = np.zeros((3 * size, 3 * size))
             whole[:size, :size] = self.A
             whole[:size, size : 2 * size] = whole[size : 2 * size, 2 * size :] = np.eye(size)
@@ -84,13 +84,13 @@ class Pilot:
         self.x = self._known[size_s] @ np.r_[self.x, drive, self.B @ rates]
 
     def command(self, measured: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """u and its rate."""
+        """Return u and its rate."""
         rate = self.A @ self.x + self.B @ (measured - self.level) + self.constant
         return self.C @ self.x + self.shift, self.C @ rate
 
 
 def advance(vehicle: Vehicle, pilot: Pilot, size_s: float, coupling: str) -> None:
-    """One communication step of both, side by side."""
+    """One communication step of vehicle and autopilot, in parallel."""
     measured = vehicle.read()
     rates = vehicle.rates() if coupling == BOTH else np.zeros(3)
     command, slope = pilot.command(measured)
@@ -100,7 +100,7 @@ def advance(vehicle: Vehicle, pilot: Pilot, size_s: float, coupling: str) -> Non
 
 
 def fixed(folder: str, size_s: float, coupling: str, stop_s: float) -> np.ndarray:
-    """Rows of time and measurements, with steps of one size; none if the loop diverges."""
+    """Rows of time and measurements with constant steps; None if the loop diverges."""
     pilot, rows = Pilot(folder), []
     with Vehicle(folder) as vehicle:
         try:
@@ -113,14 +113,14 @@ def fixed(folder: str, size_s: float, coupling: str, stop_s: float) -> np.ndarra
 
 
 class Adaptive(NamedTuple):
-    """Rows at the ends of accepted steps, and how many steps were taken back."""
+    """Rows at the ends of accepted steps, and the number of rejected steps."""
 
     rows: np.ndarray
     rejected: int
 
 
 def adaptive(folder: str, tolerance: np.ndarray, stop_s: float) -> Adaptive:
-    """Steps of a size such that one step and two halves differ by less than `tolerance`.
+    """Steps for which one step and two half steps differ by less than `tolerance`.
 
     Vehicle and autopilot go back to their saved states: once after the long step, and again if
     the halves disagree with it.
@@ -144,13 +144,13 @@ def adaptive(folder: str, tolerance: np.ndarray, stop_s: float) -> Adaptive:
                 vehicle.restore(before)
                 pilot.x = x
             vehicle.forget(before)
-            # Local error of third order.
+            # The local error is of third order.
             size *= np.clip(SAFETY * max(error, 1e-9) ** (-1 / 3), SHRINK, STRETCH)
     return Adaptive(np.array(rows), rejected)
 
 
 def error(rows: np.ndarray, exact: np.ndarray) -> float:
-    """Largest error of gamma over what was wanted."""
+    """Largest error of gamma, relative to the command."""
     if not len(rows):
         return np.inf
     return float(np.abs(rows[:, 2] - np.interp(rows[:, 0], *exact[:, [0, 2]].T)).max() / GAMMA)
@@ -160,7 +160,7 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=8.0, help="s")
+    parser.add_argument("--stop", type=float, default=8.0, help="duration, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     if not options.fmu.is_file():

@@ -1,7 +1,7 @@
-"""A cruise of ten minutes while the fuel burns, flown by the autopilot of the start.
+"""Ten minutes of level flight while fuel burns, with the autopilot designed for the start.
 
-The vehicle grows lighter, so level flight takes less and less incidence, elevator and fuel. Beside
-the flight stand vehicles that burn nothing, each trimmed with as much fuel as is left then.
+As the vehicle gets lighter, it needs less incidence, elevator and fuel. The flight is compared with
+trims at the remaining fuel, without burning.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ OUTPUTS = (
     *("fuel_mass", "der(fuel_mass)"),
 )
 COLUMNS = ("time", "V", "gamma", "q", *OUTPUTS, "delta_e_change", "phi_change")
-# Between the rows of the CSV; how many vehicles stand beside the flight.
+# Interval of the rows of the CSV; number of trims for comparison.
 ROW_S, TRIMS = 1.0, 7
 TRIMMED = ("alpha_trim", "delta_e_trim", "phi_trim")
 PANELS = [
@@ -48,9 +48,9 @@ GAINED = ("h", "V")
 
 
 class Cruise(NamedTuple):
-    """The flight, by column too; rows beside which vehicles stand, and their trims by column.
+    """The flight, also by column; rows with a trim for comparison, and these trims by column.
 
-    `seconds` it took to compute; `fuel_fraction` at its end.
+    `seconds`: computing time; `fuel_fraction`: at the end.
     """
 
     flight: Flight
@@ -62,7 +62,7 @@ class Cruise(NamedTuple):
 
 
 def cruise(folder: str, stop_s: float, fuel_fraction: float = 1.0) -> Cruise:
-    """Fly level at the speed of the start, from this much fuel on, with the design of the start."""
+    """Hold the initial speed and level flight from this fuel fraction, with the initial design."""
     law = design.design(design.model(folder, fuel_fraction=fuel_fraction))
     commands = np.zeros((round(stop_s / design.PERIOD_S), 2))
     begin = time.perf_counter()
@@ -83,7 +83,7 @@ def cruise(folder: str, stop_s: float, fuel_fraction: float = 1.0) -> Cruise:
 
 
 def picture(found: Cruise, path: Path) -> None:
-    """The flight against time, and the trims beside it as dots."""
+    """Plot the flight against time, and the trims as dots."""
     figure, axes = plt.subplots(2, 3, figsize=(9, 4.6), sharex=True, layout="constrained")
     times = found.flown["time"]
     for axis, (label, name, factor) in zip(axes.ravel(), PANELS, strict=True):
@@ -111,7 +111,7 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=600.0, help="s")
+    parser.add_argument("--stop", type=float, default=600.0, help="duration, s")
     parser.add_argument("--fuel", type=float, default=1.0, help="fuel fraction at the start")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()

@@ -18,7 +18,7 @@ from linear_model import LinearModel, linear_model
 MEASURED = ("V", "gamma", "q")
 RIGID, EVEN, SLOSH = 1, 2, 3
 DEG = np.pi / 180
-# Kept by the design; height has next to no part in what V, gamma and q do within seconds.
+# States of the design model; height hardly affects V, gamma and q within seconds.
 RIGID_STATES = ["V", "gamma", "alpha", "q"]
 FLEXIBLE_STATES = [f"eta{i}{suffix}" for i in (1, 2, 3) for suffix in ("", "_dot")]
 SLOSH_STATES = [f"eta_slosh{i}{suffix}" for i in (1, 2) for suffix in ("", "_dot")]
@@ -27,25 +27,25 @@ STATES = {
     EVEN: RIGID_STATES + FLEXIBLE_STATES,
     SLOSH: RIGID_STATES + FLEXIBLE_STATES + SLOSH_STATES,
 }
-# Bryson's rule: what is worth as much as what. Errors of V and gamma, their integrals over the
-# seconds in which they should vanish, and what the actuators may do for it.
+# Bryson's rule: acceptable errors of V and gamma, of their integrals over the seconds in which
+# they should vanish, and acceptable actuator deflections.
 ERROR = np.array([5.0, 0.5 * DEG])
 VANISH_S = np.array([20.0, 5.0])
 EFFORT = np.array([1.0 * DEG, 0.1])
-# Standard deviations per sample: disturbances like inputs (as loop transfer recovery wants them),
-# disturbances of V, gamma and q, and noise of the sensors.
+# Standard deviations per sample: disturbances at the inputs (as in loop transfer recovery),
+# disturbances of V, gamma and q, and sensor noise.
 INPUT_NOISE = np.array([1.0 * DEG, 0.05])
 STATE_NOISE = {"V": 0.01, "gamma": 0.001 * DEG, "q": 0.01 * DEG}
 SENSOR_NOISE = np.array([0.5, 0.02 * DEG, 0.02 * DEG])
 
 
 def model(folder: str, **parameters: float) -> LinearModel:
-    """Linear model of the FMU unzipped in `folder`, measured like the autopilot does."""
+    """Linear model of the FMU unzipped in `folder`, with the measurements of the autopilot."""
     return linear_model(folder, MEASURED, **parameters)
 
 
 def rigid_model(folder: str) -> LinearModel:
-    """The vehicle without bending and slosh, its mass centre where the default vehicle has it."""
+    """The vehicle without bending and slosh, with the mass centre of the default vehicle."""
     centres = [
         model(folder, configuration=configuration).trim["mass_centre"]
         for configuration in (RIGID, SLOSH)
@@ -54,7 +54,7 @@ def rigid_model(folder: str) -> LinearModel:
 
 
 def sampled(full: LinearModel, states: Sequence[str]) -> ct.StateSpace:
-    """The model with these states only, inputs held over a period."""
+    """The model with these states only, discretised with held inputs."""
     kept = [full.states.index(name) for name in states]
     plant = ct.ss(full.A[np.ix_(kept, kept)], full.B[kept], full.C[:, kept], full.D)
     return ct.sample_system(plant, PERIOD_S, "zoh")
@@ -73,7 +73,7 @@ def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1
     noise = plant.B @ np.diag((input_noise * INPUT_NOISE) ** 2) @ plant.B.T
     for name, deviation in STATE_NOISE.items():
         noise[states.index(name), states.index(name)] += deviation**2
-    # The gain of a predictor, as the law wants it: A P C' (C P C' + R)^-1.
+    # The gain of the one-step predictor: A P C' (C P C' + R)^-1.
     predictor, _, _ = ct.dlqe(plant.A, np.eye(n), plant.C, noise, np.diag(SENSOR_NOISE**2))
     trim = full.trim
     at_trim = np.array([trim["delta_e_trim"], trim["phi_trim"]])
@@ -114,7 +114,7 @@ def poles(plant: ct.StateSpace, law: Law, gain: np.ndarray | None = None) -> np.
 
 
 class Margins(NamedTuple):
-    """Margins of the loop broken at one actuator, the other one closed.
+    """Margins of the loop broken at one actuator, with the other loop closed.
 
     `gain_down_db`, `gain_up_db`: the loop gain may change by so much; `phase_deg`; `distance`:
     least distance of the Nyquist curve from -1. All are NaN if the loop is unstable.
@@ -130,13 +130,13 @@ class Margins(NamedTuple):
 
 
 def margins(plant: ct.StateSpace, law: Law, actuator: int = 0, points: int = 2000) -> Margins:
-    """Margins at delta_e (0) or phi (1), from so many frequencies and more beside the modes."""
+    """Margins at delta_e (0) or phi (1) from `points` frequencies, and more near the modes."""
     ends = poles(plant, law)
     swing = ends[np.abs(ends.imag) > 0.5]
     growth, damping = ends.real.max(), min(-swing.real / np.abs(swing), default=1.0)
     if growth >= 0.0:
         return Margins(*[np.nan] * 4, growth, damping)
-    # Dense where lightly damped modes make the curve turn, and up to half the sampling rate.
+    # Dense near lightly damped modes; up to half the sampling rate.
     own = np.abs(poles(plant, law).imag)
     near = (own[own > 1.0, None] * np.linspace(0.9, 1.1, points // 50 * 2 + 1)).ravel()
     rates = np.unique(np.concatenate([np.geomspace(1e-3, np.pi / PERIOD_S, points), near]))

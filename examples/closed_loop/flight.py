@@ -1,4 +1,4 @@
-"""The FMU in a tight loop: one flight, an autopilot in numpy beside it."""
+"""Closed loop of the FMU and an autopilot in numpy, without a master."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ described = cache(read_model_description)
 
 
 class NoFlight(Exception):
-    """The FMU refused its parameters or found no trim; its own message."""
+    """The FMU refused its parameters or found no trim; with its message."""
 
 
 class Vehicle:
@@ -58,7 +58,7 @@ class Vehicle:
         except FMICallException as error:
             self.close()
             raise NoFlight(self.said or str(error)) from error
-        # Buffers and pointers made once: a step then costs three plain C calls.
+        # Buffers and pointers are created once, so that a step is three plain C calls.
         self.outputs = (*MEASURED, *outputs)
         self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
         self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
@@ -90,7 +90,7 @@ class Vehicle:
         self._fmu.freeInstance()
 
     def command(self, commands: np.ndarray, rates: np.ndarray | None = None) -> None:
-        """Set delta_e, rad, and phi; `rates` per second if they move within the next step."""
+        """Set delta_e, rad, and phi; `rates` per second if they vary within the next step."""
         self._commands[:] = commands
         self._fmu.fmi2SetReal(self._fmu.component, self._into, 2, self._commands_at)
         if rates is not None:
@@ -100,7 +100,7 @@ class Vehicle:
             )
 
     def gust(self, air: np.ndarray, rates: np.ndarray) -> None:
-        """Set w_gust, up, and u_gust, along, m/s; they move by `rates` within the next step."""
+        """Set w_gust (up) and u_gust (along), m/s, and their `rates` within the next step."""
         component, orders = self._fmu.component, (ctypes.c_int * 2)(1, 1)
         speeds, slopes = np.array(air, dtype=float), np.array(rates, dtype=float)
         self._fmu.fmi2SetReal(component, self._air, 2, pointer(speeds))
@@ -112,13 +112,13 @@ class Vehicle:
         self.time += size_s
 
     def read(self) -> np.ndarray:
-        """Values of `outputs` now."""
+        """Current values of `outputs`."""
         size = len(self._values)
         self._fmu.fmi2GetReal(self._fmu.component, self._out, size, self._values_at)
         return self._values.copy()
 
     def rates(self) -> np.ndarray:
-        """Their first derivatives, as the FMU states them."""
+        """First derivatives of `outputs` from the FMU."""
         size = len(self._values)
         slopes, orders = np.zeros(size), (ctypes.c_int * size)(*[1] * size)
         self._fmu.fmi2GetRealOutputDerivatives(
@@ -127,11 +127,11 @@ class Vehicle:
         return slopes
 
     def save(self) -> tuple[object, float]:
-        """State to go back to."""
+        """Save the FMU state."""
         return self._fmu.getFMUState(), self.time
 
     def restore(self, state: tuple[object, float]) -> None:
-        """Go back."""
+        """Restore a saved state."""
         self._fmu.setFMUState(state[0])
         self.time = state[1]
 
@@ -141,12 +141,12 @@ class Vehicle:
 
 
 def pointer(values: np.ndarray) -> ctypes.POINTER(ctypes.c_double):
-    """Of an array of doubles, for C."""
+    """Pointer to an array of doubles."""
     return values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
 
 
 class Flight(NamedTuple):
-    """Rows of time, V, gamma, q, further outputs, delta_e, phi; why it ended early, or nothing."""
+    """Rows of time, V, gamma, q, further outputs, delta_e, phi; the reason of an early end."""
 
     rows: np.ndarray
     ended: str
@@ -154,7 +154,7 @@ class Flight(NamedTuple):
 
 
 def wanted(manoeuvre: np.ndarray, stop_s: float, period_s: float) -> np.ndarray:
-    """What the manoeuvre wants at every communication point, shape (steps, 2)."""
+    """Commands of the manoeuvre at every communication point, shape (steps, 2)."""
     times = np.arange(round(stop_s / period_s)) * period_s
     columns = [
         np.interp(times, manoeuvre["time_s"], manoeuvre[name])

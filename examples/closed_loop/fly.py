@@ -1,4 +1,4 @@
-"""Design an autopilot from the FMU, make it an FMU, connect both and fly them in two masters."""
+"""Design an autopilot on the FMU, export it as an FMU, connect both and fly in two masters."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ except ModuleNotFoundError as missing:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-# Of each variable's range in the flight. Both masters add up the same numbers, but count time
-# differently, and the FMU's integrator sees the difference: rounding, held small by the loop.
+# Relative to each variable's range. The masters round time differently, which the integrator
+# sees; the loop keeps the difference small.
 SAME_FLIGHT = 1e-9
 PANELS = [
     ("change of speed, m/s", [("vehicle.V", "flown"), ("manoeuvre.V_change", "wanted")], 1.0),
@@ -36,7 +36,7 @@ PANELS = [
 
 
 def picture(rows: np.ndarray, path: Path) -> None:
-    """The flight against time."""
+    """Plot the flight against time."""
     figure, axes = plt.subplots(3, 2, figsize=(9, 6.5), sharex=True, layout="constrained")
     for axis, (label, lines, factor) in zip(axes.T.ravel(), PANELS, strict=True):
         for name, legend in lines:
@@ -67,8 +67,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--manoeuvre", type=Path, default=design.HERE / "manoeuvre.csv")
-    parser.add_argument("--stop", type=float, default=150.0, help="s")
-    parser.add_argument("--patience", type=float, default=30.0, help="s without an answer")
+    parser.add_argument("--stop", type=float, default=150.0, help="duration, s")
+    parser.add_argument("--patience", type=float, default=30.0, help="longest pause, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     if not options.fmu.is_file():

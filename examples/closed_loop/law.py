@@ -1,6 +1,6 @@
-"""The autopilot's law: a Kalman filter, state feedback and two integrators, in numpy.
+"""The control law: a Kalman filter, state feedback and two integrators, in numpy.
 
-One law serves all: the FMU (autopilot.py), the margins (design.py) and the ensemble.
+Used by the FMU (autopilot.py), the margins (design.py) and the ensemble.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import Self
 
 import numpy as np
 
-# Limits of the commands delta_e, rad, and phi, absolute: what the elevator can do, and fuel that
-# keeps the burner from choking. Much more would also lift the nose more than the elevator can hold.
+# Absolute limits of the commands delta_e, rad, and phi. More fuel would choke the burner, and its
+# pitching moment would exceed that of the elevator.
 LOW, HIGH = np.array([-np.pi / 9, 0.0]), np.array([np.pi / 9, 0.65])
-# An error of speed beyond this, m/s, counts as this: a larger one would take all of the elevator.
+# The speed error is limited to this, m/s; a larger one would saturate the elevator.
 SPEED_ERROR = 10.0
-# The design's period, and the masters' communication step.
+# Sampling period of the law, and communication step of the masters.
 PERIOD_S = 0.01
 
 
@@ -37,12 +37,12 @@ class Law:
     K: np.ndarray  # (2, n) state feedback
     Ki: np.ndarray  # (2, 2) on the integrals of the errors of V, m, and gamma, rad s
     L: np.ndarray  # (n, 3) Kalman filter
-    level: np.ndarray  # (3,) what is measured in level flight
+    level: np.ndarray  # (3,) measurements in level flight
     low: np.ndarray  # (2,) smallest command, as a deviation from trim, rad and 1
     high: np.ndarray  # (2,) largest
 
     def at(self, level: np.ndarray, trim: np.ndarray) -> Self:
-        """The same law about another level flight: V, gamma, q and delta_e, phi there."""
+        """The same law about another level flight with these V, gamma, q and delta_e, phi."""
         return replace(self, level=level, low=LOW - trim, high=HIGH - trim)
 
     def save(self, path: Path) -> None:
@@ -60,7 +60,7 @@ class Law:
 
 @dataclass
 class Autopilot:
-    """The law in motion. `missed` counts measurements that were none, `saturated` clipped steps."""
+    """The running law. `missed` counts invalid measurements, `saturated` clipped steps."""
 
     law: Law
     estimate: np.ndarray = field(init=False)
@@ -73,7 +73,7 @@ class Autopilot:
         law = self.law
         self.estimate = np.zeros(len(law.A))
         self.integral, self.command = np.zeros(2), np.zeros(2)
-        # Side by side, so that a step is few products: it runs a million times in an ensemble.
+        # Stacked, so that a step needs few products: an ensemble has millions of steps.
         self._alone = np.hstack([law.A, law.B])
         self._with = np.hstack([law.A - law.L @ law.C, law.B, law.L])
         self._feedback = -np.hstack([law.K, law.Ki])
@@ -102,7 +102,7 @@ class Autopilot:
         free = self._feedback @ away
         command = np.minimum(np.maximum(free, law.low), law.high)
         if (command == free).all():
-            # Otherwise the integrators wait: they would wind up against the stop.
+            # Anti-windup: otherwise the integrators are held.
             self.integral = integral
         else:
             self.saturated += 1

@@ -1,4 +1,4 @@
-"""The manoeuvre as an FMU, made by PythonFMU: what manoeuvre.csv wants, with ramps between rows."""
+"""The manoeuvre as an FMU, made by PythonFMU: commands of manoeuvre.csv, linear between rows."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ from pythonfmu import Fmi2Causality, Fmi2Slave, Real
 
 
 class Manoeuvre(Fmi2Slave):
-    """Outputs hold for the step that begins where the last one ended."""
+    """Outputs are the commands for the next step."""
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)

@@ -1,7 +1,7 @@
-"""One .ssp file in two masters that share no code: FMPy and DNV's libcosim.
+"""One .ssp file in two independent masters: FMPy and DNV's libcosim.
 
-`python masters.py SSP CSV STOP_S` flies it in libcosim, writing each row as soon as it is flown:
-whatever a component does to the process, the rows up to then are on the disk.
+`python masters.py SSP CSV STOP_S` flies it in libcosim and writes each row at once, so that rows
+are kept if a component crashes the process.
 """
 
 from __future__ import annotations
@@ -20,32 +20,32 @@ from libcosimpy.CosimObserver import CosimObserver
 from law import PERIOD_S
 from system import connectors
 
-# Every output; the vehicle's come last and are what the masters are compared by.
+# All outputs; the masters are compared by those of the vehicle, which come last.
 NAMES = [
     f"{component}.{name}"
     for component, kinds in connectors().items()
     for name, kind in kinds.items()
     if kind == "output"
 ]
-# Before the first step a process may take longer: it loads libraries, perhaps from a cold disk.
+# Patience before the first step, while the process loads libraries.
 START_S = 60.0
-# Between two looks at the file that the master writes.
+# Interval at which the output file of the master is checked.
 LOOK_S = 0.2
 
 
 class MasterFailed(Exception):
-    """The master or a component ended early, or gave no answer; says until when there are rows."""
+    """The master or a component ended early or hung; the message has the time of the last row."""
 
 
 def fly_fmpy(ssp: Path, stop_s: float) -> np.ndarray:
-    """Rows of the time, s, and NAMES at the end of each step, in FMPy's master for SSP."""
-    # Half a step less: the master adds up time, and rounding must not add a step.
+    """Rows of time, s, and NAMES at the end of each step, in FMPy's SSP master."""
+    # Half a step less, because the master sums time and rounding must not add a step.
     rows = simulate_ssp(str(ssp), stop_time=stop_s - 0.5 * PERIOD_S, step_size=PERIOD_S)
     return np.column_stack([rows["time"] + PERIOD_S, *[rows[name] for name in NAMES]])
 
 
 def fly_libcosim(ssp: Path, csv: Path, stop_s: float, patience_s: float = 30.0) -> np.ndarray:
-    """The same in libcosim, in a process of its own that may not pause longer than `patience_s`."""
+    """The same in libcosim, in a process that must write a row every `patience_s`."""
     csv.unlink(missing_ok=True)
     command = [sys.executable, __file__, str(ssp), str(csv), str(stop_s)]
     with subprocess.Popen(
@@ -67,14 +67,14 @@ def fly_libcosim(ssp: Path, csv: Path, stop_s: float, patience_s: float = 30.0) 
 
 
 def flown(csv: Path) -> str:
-    """How far the flight came, for messages."""
+    """The time reached, for messages."""
     if not csv.exists() or not len(rows := read(csv)):
         return "before the first step was over"
     return f"after t = {rows[-1, 0]:.2f} s; the flight until then is in {csv}"
 
 
 def read(csv: Path) -> np.ndarray:
-    """Rows of a flight; a last line cut short is left out."""
+    """Rows of a flight, without a truncated last line."""
     with csv.open(encoding="utf-8") as lines:
         rows = [line.rstrip("\n").split(",") for line in lines if line.endswith("\n")]
     return np.array([[float(value) for value in row] for row in rows[1:]])

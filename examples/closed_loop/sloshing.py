@@ -1,7 +1,7 @@
-"""What sloshing does to the loop: margins against fuel, slosh damping and slosh frequency.
+"""Effect of sloshing on the loop: margins over fuel, slosh damping and slosh frequency.
 
-Four autopilots: designed without flexibility, without slosh, with the nominal slosh, and anew for
-every vehicle. Then the hardest case is flown with the first and the last of them.
+Four autopilots: designed without flexibility, without slosh, with the nominal slosh, and for each
+vehicle. The hardest case is flown with the first and the last of them.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ SWEEPS = {
         [2, 3, 4, 5, 6, 7, 8, 10, 12, 15, 17, 18, 19, 20, 21, 22, 23, 24, 26, 30],
     ),
 }
-# Slosh in the midst of the loop's bandwidth, and hardly damped.
+# Slosh within the bandwidth of the loop, with little damping.
 HARD = {"slosh_frequency": 4.0, "slosh_damping": LIGHT}
 
 
 def study(folder: str, points: int | None = None) -> list[dict[str, float | str]]:
-    """One row for every point of every sweep and every law."""
+    """One row per point of each sweep and law."""
     nominal = [
         design.design(design.rigid_model(folder), design.RIGID),
         design.design(design.model(folder, configuration=design.EVEN), design.EVEN),
@@ -75,14 +75,14 @@ def show(rows: list[dict[str, float | str]]) -> None:
 
 
 def cell(row: dict[str, float | str]) -> str:
-    """Gain down and up, dB, and phase, deg; or how fast it diverges."""
+    """Gain margins, dB, and phase margin, deg; or the rate of divergence."""
     if row["growth_per_s"] >= 0.0:
         return f"unstable, {row['growth_per_s']:+.2f}/s"
     return f"{row['gain_down_db']:.1f} {row['gain_up_db']:+.1f} dB, {row['phase_deg']:.0f}°"
 
 
 def picture(rows: list[dict[str, float | str]], path: Path) -> None:
-    """Least distance from -1 over each sweep; zero where the loop is unstable."""
+    """Plot the smallest distance from -1 over each sweep; zero where the loop is unstable."""
     figure, axes = plt.subplots(
         1, len(SWEEPS), figsize=(11, 3.5), sharey=True, layout="constrained"
     )
@@ -126,8 +126,8 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--points", type=int, help="of each sweep; all, if not given")
-    parser.add_argument("--stop", type=float, default=60.0, help="s, of the hard case")
+    parser.add_argument("--points", type=int, help="points of each sweep; default: all")
+    parser.add_argument("--stop", type=float, default=60.0, help="duration of the hard case, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     if not options.fmu.is_file():

@@ -14,7 +14,7 @@ from pythonfmu.builder import FmuBuilder
 from law import Law
 
 HERE = Path(__file__).resolve().parent
-# From the output of one component to the input of another.
+# Connections from outputs to inputs.
 CONNECTIONS = [
     ("manoeuvre", "V_change", "autopilot", "V_change"),
     ("manoeuvre", "gamma_wanted", "autopilot", "gamma_wanted"),
@@ -24,7 +24,7 @@ CONNECTIONS = [
     ("autopilot", "delta_e", "vehicle", "delta_e"),
     ("autopilot", "phi", "vehicle", "phi"),
 ]
-# Outputs to record beside the connected ones.
+# Further outputs to record.
 RECORDED = [
     *[("vehicle", name) for name in ("h", "alpha", "eta1", "slosh1", "slosh2", "n_z")],
     *[("vehicle", name) for name in ("delta_e_effective", "phi_effective", "choking_margin")],
@@ -33,7 +33,7 @@ RECORDED = [
 
 
 class BadSystem(Exception):
-    """The system structure names something that is not there, or the manoeuvre is none."""
+    """The system structure names a missing connector, or the manoeuvre is invalid."""
 
 
 def connectors() -> dict[str, dict[str, str]]:
@@ -80,7 +80,7 @@ def description(period_s: float, stop_s: float) -> str:
 
 
 def check_manoeuvre(path: Path) -> None:
-    """The columns that the component offers, and times that increase."""
+    """Check that the columns are those of the component, and that times increase."""
     columns = ",".join(["time_s", *connectors()["manoeuvre"]])
     with path.open(encoding="utf-8") as lines:
         if lines.readline().strip() != columns:

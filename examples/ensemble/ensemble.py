@@ -1,7 +1,7 @@
-"""Monte Carlo in closed loop on Dask: slosh, fuel, air and mass vary, one autopilot flies all.
+"""Monte Carlo in closed loop on Dask: slosh, fuel, air and mass vary, with one autopilot.
 
-Results are written as they arrive, one Parquet file for every batch: run the same command again and
-only what is missing is flown.
+Results are written on arrival, one Parquet file per batch; the same command run again flies only
+missing batches.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ except ModuleNotFoundError as missing:
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
     )
 
-# What every worker needs to import.
+# Files that every worker imports.
 MODULES = [
     HERE / "batch.py",
     HERE.parent / "linear_model.py",
     *(LOOP / f"{name}.py" for name in ("design", "flight", "law")),
 ]
-# Parameters of the FMU that vary, evenly between these limits; slosh_damping in its logarithm.
+# Varied parameters of the FMU with their limits; uniform, slosh_damping in its logarithm.
 VARIED = {
     "fuel_fraction": (0.2, 1.0),
     "slosh_damping": (0.005, 0.1),
@@ -58,7 +58,7 @@ VARIED = {
     "pitch_rate_factor": (0.0, 1.0),
 }
 SETS = ("xu2015", "parker2007", "shock_expansion")
-# A vehicle that cannot be trimmed has no flight: every part of the table knows its columns anyway.
+# Columns of flights, also for vehicles without trim, which have none.
 SCHEMA = pa.schema(
     [(name, pa.float64()) for name in (*VARIED, *MARGINS, *NUMBERS, "flown_s")]
     + [(name, pa.list_(pa.float64())) for name in HISTORIES]
@@ -66,17 +66,17 @@ SCHEMA = pa.schema(
 )
 BATCH = 25
 CONNECT_S = 10
-# How often a batch may take its worker down before it is given up.
+# Worker failures after which a batch is given up.
 RETRIES = 3
-# Reasons printed; a cluster that is lost has the same for all its batches.
+# Number of reasons printed; after the loss of a cluster all batches have the same.
 SAID = 5
-# Slosh that the autopilot is expected to dislike: near the short period, and hardly damped.
+# Slosh expected to be critical: near the short period, with little damping.
 SLOW, LIGHT = 8.0, 0.03
 NUMBER = re.compile(r"(?<![a-z])[+-]?\d+(\.\d+)?(e[+-]?\d+)?")
 
 
 def sample(count: int, seed: int) -> list[dict[str, float]]:
-    """Vehicles, a Latin hypercube: every parameter alone is spread evenly."""
+    """Sample vehicles by a Latin hypercube."""
     unit = qmc.LatinHypercube(len(VARIED), rng=seed).random(count)
     columns = {}
     for (name, (low, high)), part in zip(VARIED.items(), unit.T, strict=True):
@@ -94,7 +94,7 @@ def connect(scheduler: str | None, workers: int | None) -> Client:
     """An existing cluster, or one of processes on this machine."""
     if scheduler is None:
         return Client(LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None))
-    # Of a scheduler that is lost later it prints pages; fly() says it in a line.
+    # Dask would print pages after the loss of a scheduler; fly() reports it in a line.
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     try:
         client = Client(scheduler, timeout=CONNECT_S)
@@ -113,7 +113,7 @@ def connect(scheduler: str | None, workers: int | None) -> Client:
 def fly(
     client: Client, tasks: dict[int, Task], fmu: bytes, parts: Parts
 ) -> Iterator[tuple[int, pa.Table | str]]:
-    """Fly the batches and write their parts; yields for each its number and table, or an error."""
+    """Fly the batches and write their parts; yields number and table, or an error, of each."""
     modules = parts.folder.parent / "modules.zip"
     with zipfile.ZipFile(modules, "w") as archive:
         for module in MODULES:
@@ -129,7 +129,7 @@ def fly(
     for future in as_completed(futures):
         number = futures[future]
         if future.status != "finished":
-            # Without a scheduler nobody knows an exception.
+            # Without a scheduler the exception is not available.
             why = future.exception() or f"{future.status}: the scheduler is gone"
             yield number, f"batch {number}: {why}"
             continue
@@ -140,7 +140,7 @@ def fly(
 
 
 def bar(done: int, total: int, since: float) -> None:
-    """Progress, on one line."""
+    """Print progress on one line."""
     filled = 40 * done // total
     seconds = time.monotonic() - since
     left = seconds / done * (total - done) if done else 0.0
@@ -149,7 +149,7 @@ def bar(done: int, total: int, since: float) -> None:
 
 
 def summary(table: pa.Table) -> str:
-    """The ensemble in some lines."""
+    """Print a summary of the ensemble."""
     trimmed = np.array(table["trimmed"])
     columns = {name: table[name].to_numpy()[trimmed].astype(float) for name in (*VARIED, *MARGINS)}
     saturated = table["saturated_steps"].to_numpy()[trimmed] > 0
@@ -202,10 +202,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--flights", type=int, default=1000)
-    parser.add_argument("--stop", type=float, default=20.0, help="s, of each flight")
+    parser.add_argument("--stop", type=float, default=20.0, help="duration of each flight, s")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--scheduler", help="tcp://HOST:PORT of a Dask cluster; else this machine")
-    parser.add_argument("--workers", type=int, help="on this machine; one per core, if not given")
+    parser.add_argument("--scheduler", help="Dask cluster, tcp://HOST:PORT; default: this machine")
+    parser.add_argument("--workers", type=int, help="local processes; default: one per core")
     parser.add_argument("--output", type=Path, default=Path("target/ensemble"))
     options = parser.parse_args()
     if not options.fmu.is_file():

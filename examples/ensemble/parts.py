@@ -1,7 +1,7 @@
-"""What an ensemble is, and its results on disk: a Parquet file per batch, written when it arrives.
+"""Identity of an ensemble, and its results on disk: a Parquet file per batch, written on arrival.
 
-Every part carries the ensemble's identity. What is missing, cut off or of another ensemble is flown
-again; other files in the folder are not read.
+Every file has the identity of the ensemble. Missing or damaged files, and those of other ensembles,
+are flown again; other files in the folder are ignored.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ import pyarrow.parquet as pq
 from law import Law
 
 KEY = b"ensemble"
-# Two machines may order sums differently when they design the law.
+# Laws designed on different machines may differ by rounding.
 SAME_LAW = 1e-6
 
-# Vehicles, by what varies.
+# Vehicles: one row of varied parameters each.
 Batch = list[dict[str, float]]
 
 
@@ -30,7 +30,7 @@ class AnotherEnsemble(Exception):
 
 
 def claim(folder: Path, what: dict[str, object], law: Law) -> tuple[Law, bytes]:
-    """The law and the identity of the ensemble in a folder, which is this one from now on.
+    """The law and identity of the ensemble in a folder, which are written if it is new.
 
     The law that is kept there flies all parts, whichever machine goes on. Raises AnotherEnsemble if
     `what` or the law differ from what is there.
@@ -54,7 +54,7 @@ def claim(folder: Path, what: dict[str, object], law: Law) -> tuple[Law, bytes]:
         folder.mkdir(parents=True, exist_ok=True)
         law.save(kept_law)
         law = Law.load(kept_law)
-        # Cut off, it would be nobody's ensemble.
+        # A truncated file would match no ensemble.
         new = kept.with_suffix(".new")
         new.write_text(json.dumps(what, indent=1), encoding="utf-8")
         new.replace(kept)
@@ -63,7 +63,7 @@ def claim(folder: Path, what: dict[str, object], law: Law) -> tuple[Law, bytes]:
 
 
 def alike(one: Law, other: Law) -> bool:
-    """Whether two laws are the same but for rounding."""
+    """Whether two laws are equal up to rounding."""
     pairs = [(np.asarray(vars(one)[name]), np.asarray(vars(other)[name])) for name in vars(one)]
     return all(
         a.shape == b.shape and np.allclose(a, b, rtol=SAME_LAW, atol=SAME_LAW * np.abs(a).max())
@@ -83,14 +83,14 @@ class Parts:
         return self.folder / f"part-{number:06}.parquet"
 
     def write(self, number: int, table: pa.Table) -> None:
-        """Write a part; half of one never has its name, nor is it in the folder."""
+        """Write a part; an incomplete file is in another folder and has another name."""
         with tempfile.TemporaryDirectory(dir=self.folder.parent) as folder:
             new = Path(folder) / self.path(number).name
             pq.write_table(table.cast(self.schema), new)
             new.replace(self.path(number))
 
     def read(self, batches: list[Batch]) -> tuple[dict[int, pa.Table], list[str]]:
-        """The parts that are there, by their numbers, and a line for all that is left out."""
+        """The existing parts by number, and a message on those ignored."""
         tables, said = {}, []
         names = {self.path(number).name for number in range(len(batches))}
         others = sorted(path.name for path in self.folder.iterdir() if path.name not in names)
@@ -115,5 +115,5 @@ class Parts:
 
 
 def same(table: pa.Table, batch: Batch) -> bool:
-    """Whether these vehicles flew."""
+    """Whether the part is of these vehicles."""
     return table.select(list(batch[0])).to_pylist() == batch

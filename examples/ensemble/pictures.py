@@ -1,4 +1,4 @@
-"""Pictures of an ensemble: the envelope of the flights, and the distribution of margins."""
+"""Figures of an ensemble: the envelope of the flights, and the distribution of margins."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BANDS = [(0, 100, 0.15), (1, 99, 0.3), (10, 90, 0.5)]
 
 
 def padded(table: pa.Table, column: str) -> np.ndarray:
-    """Flights as rows; NaN after the end of one that ended early."""
+    """Flights as rows; NaN after an early end."""
     flights = table[column].to_pylist()
     rows = np.full((len(flights), max(len(flight or ()) for flight in flights)), np.nan)
     for row, flight in zip(rows, flights, strict=True):
@@ -24,7 +24,7 @@ def padded(table: pa.Table, column: str) -> np.ndarray:
 
 
 def envelope(table: pa.Table, commands: np.ndarray, every_s: float, path: Path) -> None:
-    """Percentiles of V and gamma against time. `commands`: (steps, 2), one per `every_s`."""
+    """Plot percentiles of V and gamma against time. `commands`: (steps, 2), one per `every_s`."""
     figure, axes = plt.subplots(1, 2, figsize=(7.5, 3.2), layout="constrained")
     speed = padded(table, "V_m_per_s")
     panels = [
@@ -48,7 +48,7 @@ def envelope(table: pa.Table, commands: np.ndarray, every_s: float, path: Path) 
 
 
 def margins(table: pa.Table, path: Path) -> None:
-    """Distribution of the phase margin, and where the unstable vehicles are."""
+    """Plot the distribution of the phase margin, and unstable vehicles over slosh parameters."""
     table = table.filter(table["trimmed"])
     phase = table["phase_deg"].to_numpy().astype(float)
     unstable = np.isnan(phase)
@@ -63,7 +63,7 @@ def margins(table: pa.Table, path: Path) -> None:
 
 
 def shares(axis: plt.Axes, table: pa.Table, unstable: np.ndarray) -> None:
-    """Unstable loops in per cent, written into cells of slosh frequency and damping."""
+    """Draw the percentage of unstable loops in cells of slosh frequency and damping."""
     places = [table[name].to_numpy() for name in ("slosh_frequency", "slosh_damping")]
     edges = [np.linspace(4, 12, 9), np.geomspace(0.005, 0.1, 7)]
     count, lost = (
@@ -71,7 +71,7 @@ def shares(axis: plt.Axes, table: pa.Table, unstable: np.ndarray) -> None:
         for mask in (np.full_like(unstable, True), unstable)
     )
     share = 100 * np.divide(lost, count, out=np.full_like(count, np.nan), where=count > 0)
-    # Grey alone: the numbers say it, and no colour has to be told from another.
+    # Shades of grey with numbers need no distinction of colours.
     axis.pcolormesh(*edges, share.T, cmap="Greys", vmin=0, vmax=130, edgecolors="w", lw=0.5)
     middles = (edges[0][1:] + edges[0][:-1]) / 2, np.sqrt(edges[1][1:] * edges[1][:-1])
     for (i, j), value in np.ndenumerate(share):

@@ -1,4 +1,4 @@
-"""Air that rises and falls: Dryden turbulence and single gusts, in m/s against time."""
+"""Vertical velocity of the air over time: Dryden turbulence and single gusts, m/s."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from scipy.linalg import cholesky, expm, solve_continuous_lyapunov
 FOOT = 0.3048
 # MIL-F-8785C, 3.7.2.1: scale of all components above 2000 ft.
 SCALE_M = 1750.0 * FOOT
-# MIL-F-8785C, fig. 7: standard deviation at 80,000 ft, the highest altitude it knows, exceeded with
-# this probability. 1e-5 is called severe; light (1e-2) and moderate (1e-3) air is still up there.
+# MIL-F-8785C, fig. 7: standard deviation at 80,000 ft, its highest altitude, exceeded with this
+# probability. 1e-5 is severe; light (1e-2) and moderate (1e-3) turbulence is zero there.
 SIGMA_M_PER_S = {"1e-4": 2.1 * FOOT, "1e-5": 5.1 * FOOT}
 
 
@@ -29,7 +29,7 @@ def filter_of(sigma: float, speed: float) -> tuple[np.ndarray, np.ndarray, np.nd
 def turbulence(
     sigma: float, speed: float, steps: int, period_s: float, seed: int = 1
 ) -> np.ndarray:
-    """w at steps + 1 points, exact in distribution whatever the period, in full swing at once."""
+    """Stationary w at steps + 1 points, with the exact distribution for any period."""
     a, b, c = filter_of(sigma, speed)
     settled = solve_continuous_lyapunov(a, -np.outer(b, b))
     move = expm(a * period_s)

@@ -1,4 +1,4 @@
-"""The closed loop in air that moves: Dryden turbulence, single gusts, from below and from ahead."""
+"""The closed loop in Dryden turbulence and single gusts, from below and from ahead."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ except ModuleNotFoundError as missing:
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-# All of one size, to compare lengths; to 20 m/s the answer is proportional within a tenth.
+# One amplitude for all lengths; up to 20 m/s the response is proportional to within a tenth.
 PEAK_M_PER_S = 5.0
-# From the longest of CS-25.341 (350 ft) upwards: at Mach 8 that one is over in 0.09 s.
+# From the longest of CS-25.341 (350 ft), which lasts 0.09 s at Mach 8, upwards.
 GRADIENTS_M = [107, 214, 428, 856, 1712, 3424]
 DRAWN_M = [107, 428, 1712]
 START_S, GUST_S = 0.5, 12.0
-# Of the turbulence, in the picture.
+# Part of the turbulence shown in the figure.
 SHOWN_S = 20.0
 SEVERE = max(SIGMA_M_PER_S, key=SIGMA_M_PER_S.get)
 SHOWN = ("alpha", "n_z", "eta1", "slosh1")
@@ -44,29 +44,29 @@ PANELS = {
     "slosh_mm": "slosh, fore, mm",
     "elevator_deg": "elevator, deg",
 }
-# Baffles or none.
+# With and without baffles.
 DAMPINGS = (0.05, 0.01)
 
 
 def autopilots(folder: str, **parameters: float) -> tuple[Law, Law]:
-    """The autopilot of the closed loop, and one that leaves all controls in trim."""
+    """The autopilot of the closed loop, and constant controls."""
     law = design.design(design.model(folder, **parameters))
     idle = Law(**vars(law) | {"K": 0.0 * law.K, "Ki": 0.0 * law.Ki})
     return law, idle
 
 
 def vertical(air: np.ndarray) -> np.ndarray:
-    """Air that only rises and falls: w beside no u, shape (points, 2)."""
+    """Vertical gusts w with u = 0, shape (points, 2)."""
     return np.column_stack([air, np.zeros_like(air)])
 
 
 def meet(folder: str, law: Law, air: np.ndarray, **parameters: float) -> Flight:
-    """Level flight through this air; shape (steps + 1, 2), m/s, up and along."""
+    """Fly level through this air; shape (steps + 1, 2), m/s, up and along."""
     return fly(folder, law, np.zeros((len(air) - 1, 2)), SHOWN, gust=air, **parameters)
 
 
 def values(rows: np.ndarray, air: np.ndarray) -> np.ndarray:
-    """COLUMNS of rows of a flight, shape (rows, 6); incidence is that to this air."""
+    """COLUMNS of rows of a flight, shape (rows, 6); incidence is relative to this air."""
     w, u = air.T
     _, speed, gamma, _, alpha, n_z, nose, slosh, elevator, _ = rows.T
     met = alpha + gamma - np.arctan2(speed * np.sin(gamma) - w, speed * np.cos(gamma) - u)
@@ -75,7 +75,7 @@ def values(rows: np.ndarray, air: np.ndarray) -> np.ndarray:
 
 
 def away(folder: str, flight: Flight, air: np.ndarray) -> np.ndarray:
-    """COLUMNS as changes from trimmed flight in still air."""
+    """COLUMNS as deviations from trimmed flight in still air."""
     still = meet(folder, flight.pilot.law, np.zeros((2, 2))).rows
     return values(flight.rows, air[1 : len(flight.rows) + 1]) - values(still, np.zeros((1, 2)))
 
@@ -87,12 +87,12 @@ def line(*cells: object) -> str:
 
 
 def write(path: Path, head: tuple[str, ...], rows: np.ndarray) -> None:
-    """A CSV file; every number reads back as the same double."""
+    """Write a CSV file with all digits."""
     np.savetxt(path, rows, fmt="%.17g", delimiter=",", header=",".join(head), comments="")
 
 
 def draw(axes: np.ndarray, rows: np.ndarray, label: str, style: str) -> None:
-    """One flight, one panel below the other."""
+    """Plot one flight."""
     axes[0].plot(rows[:, 0], rows[:, 1], style, lw=1, label=label)
     for axis, name in zip(axes[1:], PANELS, strict=True):
         axis.plot(rows[:, 0], rows[:, 3 + COLUMNS.index(name)], style, lw=1)
@@ -102,8 +102,8 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=120.0, help="s, of the turbulence")
-    parser.add_argument("--seed", type=int, default=1, help="of the turbulence")
+    parser.add_argument("--stop", type=float, default=120.0, help="duration of the turbulence, s")
+    parser.add_argument("--seed", type=int, default=1, help="random seed of the turbulence")
     parser.add_argument("--output", type=Path, default=Path("target/gusts"))
     options = parser.parse_args()
     if not options.fmu.is_file():

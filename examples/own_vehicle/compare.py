@@ -1,4 +1,4 @@
-"""Fly one manoeuvre with several FMUs and draw the changes from level flight over each other.
+"""Fly one manoeuvre with several FMUs and plot the deviations from level flight together.
 
 python examples/own_vehicle/compare.py target/ahv.fmu target/own/ahv.fmu
 """
@@ -24,7 +24,7 @@ PANELS = (
     ("eta1", "first mode,\nat the nose\nmm", 1e3),
     ("slosh2", "aft slosh\nmm", 1e3),
 )
-# Told apart without colour, too.
+# Line styles, distinguishable without colour.
 LINES = (
     {"color": "#0072b2", "linestyle": "-"},
     {"color": "#d55e00", "linestyle": "--"},
@@ -44,16 +44,16 @@ def doublet() -> np.ndarray:
 
 
 def name(fmu: Path) -> str:
-    """File, and the data that the FMU was built with where they are not ours."""
+    """File name, and the user's data that the FMU was built with."""
     description = read_model_description(str(fmu)).description or ""
     _, _, data = description.partition("; data: ")
     return f"{fmu}: {data}" if data else str(fmu)
 
 
 def main() -> None:
-    """Fly, print, draw."""
+    """Fly, print and plot."""
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("fmu", nargs="+", type=Path, help=f"up to {len(LINES)}")
+    parser.add_argument("fmu", nargs="+", type=Path, help=f"FMUs to compare, up to {len(LINES)}")
     parser.add_argument("--stop", type=float, default=1.2, metavar="SECONDS")
     parser.add_argument("--output", type=Path, default=Path("target/own/compare.png"))
     options = parser.parse_args()

@@ -1,4 +1,4 @@
-"""What every master may rely on, written by hand: names, causality, variability, type, unit.
+"""The interface that masters rely on, written by hand: names, causality, variability, type, unit.
 
 Scripts, controllers and diagrams of users refer to these names and numbers. Entries are added,
 never changed or removed.
@@ -111,7 +111,7 @@ UNITS = {
     "kg.m": (1, 1, 0, 0),
 }
 
-# A value keeps its number for ever; one that does not exist yet is not offered.
+# Numbers of values never change.
 ENUMERATIONS = {
     "configuration": {"Rigid": 1, "EvenMassBeam": 2, "SloshBeam": 3},
     "aero": {"xu2015": 1, "parker2007": 2, "shock_expansion": 3},

@@ -41,20 +41,20 @@ RIGID, EVEN_MASS_BEAM, SLOSH_BEAM = 1, 2, 3
 CONFIGURATIONS = (RIGID, EVEN_MASS_BEAM, SLOSH_BEAM)
 AERO_SETS = ("xu2015", "parker2007", "shock_expansion")
 
-# In the order of the oracle's state vector.
+# States in the order of the oracle.
 STATES = (
     *("V", "h", "gamma", "alpha", "q"),
     *("eta1", "eta1_dot", "eta2", "eta2_dot", "eta3", "eta3_dot"),
     *("eta_slosh1", "eta_slosh1_dot", "eta_slosh2", "eta_slosh2_dot"),
 )
 DERIVATIVES = tuple(f"der({name})" for name in STATES)
-# Last, as fuel that burns moves it.
+# Last: a state only while fuel burns.
 FUEL = "fuel_mass"
 ALL_STATES, ALL_DERIVATIVES = (*STATES, FUEL), (*DERIVATIVES, f"der({FUEL})")
 CONTROLS = ("delta_e", "phi")
 GUSTS = ("w_gust", "u_gust")
 INPUTS = (*CONTROLS, *GUSTS)
-# Outputs that are no states: our name, the oracle's name.
+# Outputs that are not states: our name, the oracle's name.
 SENSORS = ("theta_imu", "q_imu", "gamma_imu", "n_z_imu", "n_x_imu", "alpha_probe")
 LOADS = ("lift", "drag", "thrust", "moment", "mach", "qbar", "n_z", "choking_margin")
 OUTPUTS = {
@@ -266,7 +266,7 @@ class Instance:
         inputs: Callable[[int], Sequence[float]] | None = None,
         names: Sequence[str] = EVERYTHING,
     ) -> np.ndarray:
-        """Values of `names` before the first step and after each; inputs(k) is held in step k.
+        """Values of `names` at the start and after each step; inputs(k) are held in step k.
 
         It gives the controls, and the gusts if it likes.
         """

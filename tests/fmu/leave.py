@@ -1,4 +1,4 @@
-"""Leave the envelope with steps of many sizes; print the status of each last step.
+"""Leave the envelope with several step sizes; print the status of each last step.
 
 A program of its own, so that a step that never returns can be stopped. Argument: directory of the
 unzipped FMU.

@@ -1,4 +1,4 @@
-"""Continue a flight from its serialised state in a process of its own; print the bits of its end.
+"""Continue a flight from its serialised state in a new process; print the bits of the final state.
 
 Arguments: directory of the unzipped FMU, file with the state, time of the state, number of steps.
 """

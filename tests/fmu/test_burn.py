@@ -26,16 +26,16 @@ from test_exchange import AGREEMENT, STEP, STEPS, STOP, TOLERANCE
 from test_linear import DIFFERENCE, jacobian
 from test_run import all_inputs, doublet
 
-# Of a variable's largest excursion in 0.7 s of flight: the equations of both leave out other
-# terms of second order in the flow, and the FMU interpolates between its levels.
+# Relative to a variable's largest excursion in 0.7 s of flight: FMU and oracle neglect different
+# terms of second order in the flow, and the FMU interpolates between fuel levels.
 SAME_FLIGHT = 1e-6
-# By configuration and fuel, limit and steps where they are others. A kilogram of fuel turns the
-# slosh modes of a light vehicle ten times as far, 2.4e-4 against 2.2e-5: there up to 6e-6 is
-# measured, and a tenth of that with half the flow. In 0.7 s it would slosh over.
+# Other limits and steps, by configuration and fuel. A kilogram of fuel turns the slosh modes of a
+# light vehicle ten times as far, 2.4e-4 against 2.2e-5: the measured error is up to 6e-6, and a
+# tenth of that with half the flow. In 0.7 s its slosh would reach the depth limit.
 LIGHT = {(SLOSH_BEAM, 0.4): (1e-5, 60)}
-# Of a state's nominal value, to either side; and what the rates lose by rounding.
+# Perturbation relative to a state's nominal value; and rounding error of the rates.
 STATE_STEP, ROUNDING = 1e-3, 1e-14
-# What does not depend on the basis of the modes: the oracle follows eigenmodes.
+# Variables that do not depend on the basis of the modes: the oracle uses eigenmodes.
 COMPARED = ("V", "h", "gamma", "alpha", "q")
 
 
@@ -49,7 +49,7 @@ def test_verif_a_burning_flight_is_the_oracles(
     step = 0.01
 
     def manoeuvre(k: int) -> tuple[float, float]:
-        # Half the doublet of other flights: light vehicles would slosh over.
+        # Half the doublet of other flights, because of the depth limit of light vehicles.
         return 0.5 * doublet(k)[0], 0.3 if k >= 10 else 0.0
 
     given = {"configuration": configuration, "fuel_fraction": fuel_fraction}
@@ -62,14 +62,14 @@ def test_verif_a_burning_flight_is_the_oracles(
     with package.flight(1e-10, fuel_burn=True, **given) as flight:
         ours = flight.fly(steps, step, manoeuvre, (*COMPARED, FUEL, *OUTPUTS))
     size = np.abs(theirs - theirs[0]).max(axis=0)
-    # The liquid of both tanks moves in the same modes, in one of them less.
+    # The liquid of both tanks moves in the same modes, in one of them with smaller amplitude.
     tanks = [(*COMPARED, FUEL, *OUTPUTS).index(name) for name in ("slosh1", "slosh2")]
     size[tanks] = size[tanks].max()
     error = np.abs(ours - theirs).max(axis=0)
     assert theirs[0, 5] - theirs[-1, 5] > 2.0 * step * steps, "kg/m burnt"
     for name, wrong, scale in zip((*COMPARED, FUEL, *OUTPUTS), error, size, strict=True):
         assert wrong <= limit * scale, f"{name}: {wrong / scale if scale else wrong:.2e}"
-    # The fuel is felt: a flight that keeps it is another one.
+    # Burning has an effect: a flight without it differs.
     with package.flight(1e-10, **given) as flight:
         kept = flight.fly(steps, step, manoeuvre, (*COMPARED, FUEL, *OUTPUTS))
     felt = np.abs(kept - theirs).max(axis=0) > 10.0 * limit * size

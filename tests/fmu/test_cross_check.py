@@ -12,8 +12,8 @@ from fmpy import simulate_fmu
 from harness import Package
 
 FOLDER = "documentation/cross-check"
-# Of the largest value in a column. A master's clock may differ in its last bit, and the unstable
-# short period makes a thousand of one in 2 s; the inputs are the same.
+# Relative to the largest value in a column. A master's clock may differ in its last bit, which the
+# unstable short period amplifies a thousand times in 2 s; the inputs are the same.
 TOLERANCE = 1e-9
 
 

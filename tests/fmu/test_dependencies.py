@@ -1,4 +1,4 @@
-"""The dependencies in ModelStructure, proved in both directions.
+"""The dependencies in ModelStructure are complete and none is superfluous.
 
 By perturbation of the FMU: the inputs, and the states that a start parameter sets (V, h, gamma,
 alpha, q, eta1 to eta3, with trim = false). The rates and the slosh states cannot be set from
@@ -31,16 +31,16 @@ from oracle_aero import TINY
 from oracle_burn import Burning
 
 KNOWNS = (*ALL_STATES, *INPUTS)
-# Between 18 and 20 km the temperature is constant: the altitude changes nothing but the density and
-# gravity, and the speed of a given Mach number stays the same to the bit.
+# Between 18 and 20 km the temperature is constant: altitude affects only density and gravity, and
+# the speed of a given Mach number is exactly constant.
 BASE = {
     **{"trim": False, "altitude0": 19000.0, "mach0": 8.0, "gamma0": 0.01, "alpha0": 0.02},
     **{"q0": 0.03, "eta10": 0.05, "eta20": -0.02, "eta30": 0.01, "delta_e": 0.1, "phi": 0.3},
-    # In still air the flight-path angle would not matter to the loads, by eq. (4) as printed the
-    # pitch rate neither.
+    # In still air the loads would not depend on the flight-path angle, and by eq. (4) as printed
+    # not on the pitch rate.
     **{"w_gust": 5.0, "u_gust": 2.0, "fuel_burn": True, "pitch_rate_factor": 1.0},
 }
-# Which start value moves which state or input, and by how much.
+# Start values, the state or input that each changes, and its change.
 MOVES = {
     **{"V": ("mach0", 0.5), "h": ("altitude0", 100.0), "gamma": ("gamma0", 0.02)},
     **{"alpha": ("alpha0", 0.03), "q": ("q0", 0.05)},
@@ -48,10 +48,10 @@ MOVES = {
     **{"delta_e": ("delta_e", 0.05), "phi": ("phi", 0.2), "w_gust": ("w_gust", 3.0)},
     "u_gust": ("u_gust", 3.0),
 }
-# The initial speed, altitude and path angle also set the weight on the floors of the tanks: with
+# Initial speed, altitude and path angle also determine the weight on the tank floors: with
 # sloshing masses they change parameters of the model, not only the state.
 ALSO_PARAMETERS = ("V", "h", "gamma")
-# By the speed of sound alone, which is the same where the temperature is.
+# Dependent only through the speed of sound, which is constant with the temperature.
 BY_TEMPERATURE = (("mach", "h"), ("choking_margin", "h"))
 LINEAR = 1e-9  # rounding of a difference quotient, relative
 
@@ -153,7 +153,7 @@ def test_verif_linear_dependencies_are_linear(
                 slopes.setdefault(same, []).append((first + second) / size)
     for found in slopes.values():
         np.testing.assert_allclose(found, found[0], rtol=LINEAR, atol=1e-12)
-    if known != "V":  # moved through the Mach number
+    if known != "V":  # changed through the Mach number
         constant = [slopes[row][0] for row, kind in kinds if kind == "constant"]
         np.testing.assert_allclose(constant, 1.0, rtol=LINEAR)
 
@@ -184,7 +184,7 @@ def jacobian(
 def test_verif_dependencies_are_the_sparsity_of_the_equations(
     claims: dict, vehicle: Callable[..., Vehicle]
 ) -> None:
-    """All states and inputs: the claims are the nonzero pattern of the oracle's derivatives.
+    """All states and inputs: the dependencies are the nonzero pattern of the oracle's derivatives.
 
     In one coefficient set or another: only one has a plume under the aft-body. What the fuel does
     is seen in that one while it burns, and what the pitch rate does if its terms count.

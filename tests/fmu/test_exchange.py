@@ -10,14 +10,14 @@ from harness import AERO_SETS, CONFIGURATIONS, Package
 
 STOP, STEP = 0.5, 0.01
 TOLERANCE = 1e-8
-# Over the excursion: CVODE holds its tolerance per step, and the open loop amplifies by e^2.
+# Relative to the excursion: CVODE controls the error per step; the open loop amplifies it by e^2.
 AGREEMENT = 2e-5
-# Of a value: how many steps' tolerance may add up.
+# Relative to a value: number of steps whose tolerances may add up.
 STEPS = 10
 # Until then every vehicle is inside the envelope with the elevator off its trim by this, rad.
 EULER_STOP, ELEVATOR = 1.5, 5e-4
-# Share of the excursion, most of it in the third mode, which rings at first; and what rounding
-# leaves in trim, m and rad.
+# Share of the excursion, mostly in the third mode, which rings initially; and rounding in trim, m
+# and rad.
 EULER_ERROR, EULER_ROUNDING = 0.1, 1e-13
 
 

@@ -27,11 +27,11 @@ from test_linear import jacobian
 from test_run import STEP, STEPS, assert_equal_flights, columns, doublet
 from test_trim import OMEGA, OMEGA_EQUAL, TRIM, TRIM_EQUAL
 
-# Of the largest entry in a row, all columns in units of what they usually move by: two solutions of
-# the modes, and what the rounding of the trim leaves.
+# Relative to the largest entry in a row, with columns scaled by typical changes: two solutions of
+# the modes, and rounding of the trim.
 LINEAR_EQUAL = 1e-9
 FLIGHT_EQUAL = 1e-7  # as in test_run.py, at the default tolerance
-# Far enough from 1 to be seen, near enough to be trimmed.
+# Far enough from 1 to have an effect, near enough for a trim.
 EACH: list[dict[str, Any]] = [
     *({f"{name}_factor": value} for name in FACTORS for value in (0.94, 1.07)),
     *({"pitch_rate_factor": value} for value in (0.0, 0.5, 1.0)),
@@ -48,7 +48,7 @@ OTHERS: list[dict[str, Any]] = [
     {"fuel_fraction": 0.4, **ALL_AT_ONCE},
 ]
 ROWS, COLUMNS = (*DERIVATIVES, *OUTPUTS), (*STATES, *INPUTS)
-# What an input usually moves by.
+# Typical changes of the inputs.
 USUAL = {"delta_e": 0.1, "phi": 0.1, "w_gust": 10.0, "u_gust": 10.0}
 
 

@@ -70,7 +70,7 @@ def test_verif_leaving_the_envelope_is_discarded(
         alpha = flight["alpha"]
         assert ALPHA[0] <= alpha <= ALPHA[1]
         assert min(abs(alpha - limit) for limit in ALPHA) < 1e-6
-        # The flight to that very instant is a valid one and ends in the same state.
+        # A flight to exactly that instant is valid and ends in the same state.
         with package.flight(configuration=configuration, delta_e=delta) as again:
             while again.time < begin:
                 again.step(0.01)
@@ -263,7 +263,7 @@ def test_verif_calls_out_of_order_are_refused(package: Package) -> None:
 
 
 def test_verif_log_categories_are_those_described(package: Package) -> None:
-    """A master may switch on every category of the description; the FMU uses these and no other.
+    """A master may enable every category of the description; the FMU uses no others.
 
     All but the one of internal errors, of which there are none.
     """

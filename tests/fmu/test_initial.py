@@ -10,16 +10,16 @@ import pytest
 from contract import FACTORS, OFFSETS
 from harness import INPUTS, Package
 
-# Where parameters are moved from: each has an effect in one of these.
+# Starting points of the parameters: each parameter has an effect in one of these.
 UNTRIMMED = {"trim": False, "alpha0": 0.02, "q0": 0.03, "eta10": 0.05, "phi": 0.3}
 BASES = [
     {"configuration": 3},
     {"configuration": 2, **UNTRIMMED},
-    # The one set in which the fuel changes the lift, and masses that move against their tanks.
+    # The set in which fuel changes the lift, and masses that move relative to their tanks.
     {"configuration": 3, "aero": 3, **UNTRIMMED},
-    # The one vehicle whose fuel flows.
+    # With fuel flow.
     {"configuration": 3, "fuel_burn": True},
-    # The one start at which anything moves that is damped.
+    # A start at which damped states move.
     {"configuration": 3, "eta1_dot_offset": 0.1, "slosh1_dot_offset": 0.1},
 ]
 # Another value for each parameter and input.

@@ -10,7 +10,7 @@ import pytest
 from harness import CONFIGURATIONS, EVERYTHING, STATES, Package
 
 ELEVATOR_LIMIT, FUEL_LIMIT = math.radians(20.0), 1.5
-# Two ways to the same effective controls differ by rounding, which grows with e^(5 t).
+# Two ways to set the same effective controls differ by rounding, which grows as e^(5 t).
 SAME_FLIGHT = 1e-11
 
 

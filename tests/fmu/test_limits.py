@@ -23,9 +23,9 @@ from harness import (
 from oracle import Vehicle
 
 MARGIN = "choking_margin"
-# Both solve the same equations to rounding.
+# Both solve the same equations up to rounding.
 EQUAL = 1e-11
-# Speed of the sloshing masses against their tanks that takes the liquid out, m/s.
+# Speed of the sloshing masses relative to their tanks that leads beyond the depth, m/s.
 KICKS = [("slosh1", 25.0), ("slosh1", -25.0), ("slosh2", 9.0), ("slosh2", -9.0)]
 
 

@@ -24,12 +24,12 @@ from harness import (
 )
 
 ROOT = Path(__file__).parents[2]
-# What the two eigenvalue solvers may differ by, over the largest pole.
+# Difference of the two eigenvalue solvers relative to the largest pole.
 ROUNDING = 1e-10
-# Of a central difference over an input change of 1e-4: 1e-8 of curvature, 1e-12 of rounding.
+# Error of a central difference with an input change of 1e-4: 1e-8 truncation, 1e-12 rounding.
 DIFFERENCE = 1e-6
-# In trim the moment is 0, and so is its change with u_gust: the quotient shows the last digits of
-# its terms, which are lift times this arm in m.
+# In trim the moment and its derivative with respect to u_gust are 0: the quotient is the rounding
+# error of its terms, which are lift times this arm in m.
 LAST_DIGITS, ARM = 1e-15, 10.0
 NAMES = {1: "Rigid", 2: "EvenMassBeam", 3: "SloshBeam"}
 

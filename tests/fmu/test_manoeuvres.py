@@ -13,14 +13,14 @@ from harness import Package, ahv
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 STEP = 0.01
-# Of the integration; the open loop makes a thousand of an error in 2 s.
+# Tolerance of the integration; the open loop amplifies an error a thousand times in 2 s.
 TOLERANCE = 1e-11
-# s; the gust is lost soon after.
+# Duration, s; in the gust the vehicle is lost soon after.
 STOP, GUST_STOP = 2.0, 1.2
 NAMES = ("V", "gamma", "alpha", "q", "eta1", "slosh1")
-# Relative, of a value at the end.
+# Relative to a final value.
 AGREEMENT = 1e-6
-# Over the movement, as some values hardly move.
+# Relative to the excursion, as some values hardly change.
 MOVED = 1e-4
 
 

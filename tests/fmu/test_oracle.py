@@ -60,7 +60,7 @@ def test_verif_uniform_beam_has_the_analytic_modes() -> None:
 def test_verif_rigid_motion_as_a_mode_is_incidence_of_the_body(
     vehicle: Callable[..., Vehicle], configuration: int, aero_set: str
 ) -> None:
-    """Rotation and heave in place of modes bend nothing: they are the body's incidence.
+    """Rotation and heave as modes do not bend the body: they change its incidence.
 
     The load on the heave mode is the lift, and that on the rotation is minus the moment, also of
     what pitching adds. Loads are compared where the derivatives are taken: there the places of
@@ -93,7 +93,7 @@ def test_verif_rigid_motion_as_a_mode_is_incidence_of_the_body(
     for modal, c_l, c_m in loads:
         assert modal[1] == pytest.approx(c_l, rel=1e-12)
         assert modal[0] == pytest.approx(-(chord * c_m + shift * c_l), rel=1e-12)
-    # Pitching lets each strip see the incidence of its middle.
+    # With a pitch rate each strip has the incidence of its middle.
     first, joint, length = 0.0, oracle.data["geometry"]["fore_body_m"], nodes[-1]
     middles = np.array([(first + joint) / 2.0, (joint + length) / 2.0, terms.x_e]) - x_cg
     slopes = [*terms.strip_slope, slope(aero["lift"], *at, "delta_e")]
@@ -111,7 +111,7 @@ def test_verif_poles_and_zeros_equal_python_control(
     system = control.ss(model.a, model.b, model.c, model.d)
     poles, zeros = control.poles(system), control.zeros(system)
     assert len(oracle.poles()) == len(poles)
-    # Two of the zeros are a double one at the origin: its halves part by the root of rounding.
+    # The double zero at the origin splits by the square root of the rounding error.
     assert far(oracle.poles(), poles) < 1e-7
     assert len(oracle.zeros()) == oracle.states - 2
     assert far(oracle.zeros(), zeros) < 1e-4
@@ -131,7 +131,7 @@ def test_verif_damping_takes_energy(vehicle: Callable[..., Vehicle], configurati
 
 
 def test_verif_liquid_at_rest_lies_on_the_floor(vehicle: Callable[..., Vehicle]) -> None:
-    """In trim the springs carry nothing of the sloshing masses' weight, and the beam is at rest.
+    """In trim the springs carry no weight of the sloshing masses, and the beam is at rest.
 
     Without the floors each mass would hang g_eff/omega^2 below its tank; without the thrust's work
     on the modes it would lag behind a beam that seems to spin. What is left are the modes that are

@@ -93,11 +93,11 @@ def test_verif_the_body_is_the_beam_and_two_terms(vehicle: Callable[..., Vehicle
     product = wanted @ block
     error = np.abs(Burning._product(oracle, block) - product).max()
     assert error < 1e-12 * np.abs(product).max()
-    # Mean displacement and slope of the modes are these projections too.
+    # These projections also give mean displacement and slope of the modes.
     modes, (heave, pitch) = motions(oracle), (oracle.elastic.heave, oracle.elastic.pitch)
     np.testing.assert_allclose(pitch, r @ modes, rtol=1e-9, atol=1e-13)
     np.testing.assert_allclose(heave, h @ modes + pitch * (oracle.x_cg - x_b), atol=1e-12)
-    # And the modes are those of the whole matrices, as far as double precision goes.
+    # The modes are those of the full matrices, within double precision.
     stiff = np.zeros((size, size))
     for (row, column), value in beam.matrices()[0].items():
         stiff[row, column] = stiff[column, row] = float(value)
@@ -124,7 +124,7 @@ def test_a_body_that_cannot_be_is_refused() -> None:
 def test_verif_a_stiff_beam_is_a_body_with_two_masses_on_springs(
     vehicle: Callable[..., Vehicle], fuel_fraction: float, pitch_rate_factor: float
 ) -> None:
-    """Short period and slosh poles of heave, pitch and two masses against their tanks.
+    """Short period and slosh poles of heave, pitch and two masses moving in their tanks.
 
     Liquid at rest makes one body of all, with m and I about x_c; the forces act on the body alone,
     as its own incidence and pitch rate say. Speed and height stay. The mass centre is put where
@@ -153,13 +153,13 @@ def test_verif_a_stiff_beam_is_a_body_with_two_masses_on_springs(
     turn = load * ref["chord_m"] * np.array([slope(aero["moment"], body, u[0]), e.cm_q, 0.0])
     turn = turn + ref["thrust_arm_m"] * thrust
 
-    # Heave of the body at x_c, its pitch (nose up), and the masses against their tanks.
+    # Heave of the body at x_c, its pitch (nose up), and the masses relative to their tanks.
     point, where = oracle.beam.points()
     arm = where - oracle.x_cg
     inertia = np.diag([m, i_yy, *point])
     inertia[0, 2:] = inertia[2:, 0] = point
     inertia[1, 2:] = inertia[2:, 1] = -point * arm
-    # Unknowns: four rates, then pitch and the masses' displacements; heave alone does nothing.
+    # Unknowns: four rates, pitch and the displacements of the masses; heave has no effect.
     rates, places = np.eye(7)[:4], np.vstack([np.zeros(7), np.eye(7)[4:]])
     mean_heave = rates[0] + point @ rates[2:] / m
     mean_pitch = places[1] - point * arm @ places[2:] / i_yy
@@ -189,7 +189,7 @@ def velocity(oracle: Vehicle, x: np.ndarray, u: np.ndarray) -> np.ndarray:
 def test_verif_the_imu_feels_how_its_place_accelerates(
     vehicle: Callable[..., Vehicle], configuration: int
 ) -> None:
-    """Its specific force is the rate of its place's velocity less gravity; its path that velocity.
+    """Its specific force is its acceleration minus gravity; its path follows its velocity.
 
     Far from trim, along the flow. What the round earth bends the path by is added as in eq. (3).
     """
@@ -234,7 +234,7 @@ def test_verif_the_probe_sees_what_the_air_does_where_it_is(
     assert follow["alpha_probe"] == pytest.approx(still, abs=1e-14)
     calm = oracle.outputs(x, u)
     assert follow["qbar"] == pytest.approx(0.5625 * calm["qbar"], rel=1e-12)
-    # Pitching about the mass centre takes the nose up, out of the air that it meets.
+    # A pitch rate about the mass centre reduces the incidence at the nose.
     x[4] = 0.1
     rising = 0.1 * (oracle.x_cg - oracle.probe_station) / x[0]
     assert oracle.outputs(x, u)["alpha_probe"] - still == pytest.approx(-rising, rel=1e-2)

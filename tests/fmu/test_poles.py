@@ -1,4 +1,4 @@
-"""The poles of Tables 2 and 3 from the FMU as a black box: nothing but inputs, steps, readings.
+"""The poles of Tables 2 and 3 identified from inputs and outputs of the FMU.
 
 The inputs reach every state and every state can be read, so the discrete transition matrix of one
 step follows from responses by least squares (dynamic mode decomposition with control: Proctor,
@@ -16,23 +16,23 @@ from scipy.optimize import linear_sum_assignment
 from harness import ACTIVE_STATES, CONFIGURATIONS, STATES, Package
 from oracle import Vehicle
 
-# The fastest mode turns by 1.1 rad in a step: below pi, so that no logarithm is ambiguous.
+# The phase of the fastest mode advances by 1.1 rad per step, below pi, so logarithms are unique.
 STEP = 0.01
-# Runs in which the unstable short period grows little, and so many that the random inputs move
-# every state in its own way: what a few say of speed and altitude is lost in rounding.
+# Runs so short that the unstable short period grows little, and enough random inputs to excite all
+# states independently: with few, speed and altitude are lost in rounding.
 STEPS, RUNS = 60, 24
-# rad and fuel ratio. A pair of runs of opposite inputs cancels what is even in them; what is cubic
-# falls as the square of the size, and here is near the error of the integration.
+# Inputs, rad and fuel ratio. A pair of runs with opposite inputs cancels even terms; cubic terms
+# decrease as the square of the size, and are near the integration error.
 SIZE = (5e-5, 5e-4)
 TOLERANCE = 1e-12  # of the FMU
 
-# Largest distance of a pole, rad/s. What is cubic costs 6e-8, measured.
+# Largest distance of a pole, rad/s. Cubic terms cause 6e-8 (measured).
 FAST = 2e-7
-# Phugoid and height pole take minutes, a run 0.6 s: speed and altitude hardly move, and a relative
-# 1e-12 of them costs up to 2.7e-6, measured. A height pole of 1e-6 is thereby seen to be small, no
-# more.
+# Phugoid and height mode take minutes, a run 0.6 s: speed and altitude hardly change, and a
+# relative error of 1e-12 in them causes up to 2.7e-6 (measured). This shows only that the height
+# pole is small.
 SLOW = 5e-6
-# rad/s: between the phugoid, 0.04, and the short period, 3.4.
+# Boundary between phugoid, 0.04, and short period, 3.4, rad/s.
 DIVIDE = 0.5
 
 

@@ -22,13 +22,13 @@ from oracle import Vehicle
 
 STEP, STEPS = 0.01, 100
 
-# Difference in a flight of one second, by the tolerance, relative to the largest excursion of the
-# variable from its value at the start: for speed and altitude far stricter than relative to the
-# value. The unstable short period amplifies early errors by up to e^(5 t), yet the default
-# tolerance of 1e-8 keeps the demanded 1e-7.
+# Differences in a flight of one second, by tolerance, relative to the largest excursion of the
+# variable from its initial value: for speed and altitude far stricter than relative to the
+# value. The unstable short period amplifies early errors by up to e^(5 t), but the default
+# tolerance of 1e-8 meets the required 1e-7.
 RUN = {None: 1e-7, 1e-10: 2e-8}
-# Least excursion, m/s: the integrator's tolerance counts from |x| + nominal, and more fuel moves
-# the third mode by half its nominal rate in shock_expansion, whose plume bends the beam.
+# Smallest excursion, m/s: the tolerance is relative to |x| + nominal, and fuel changes the third
+# mode by half its nominal rate in shock_expansion, whose plume bends the beam.
 LEAST_EXCURSION = {"eta3_dot": 5e-3}
 # Rates and outputs at the same state and input: rounding, relative to the variable's largest value.
 POINTWISE = 1e-11

@@ -14,12 +14,12 @@ from test_burn import SAME_FLIGHT
 from test_run import STEP, assert_equal_flights, columns, doublet
 
 FLIGHT_EQUAL = 1e-7  # as in test_run.py, at the default tolerance
-# While fuel burns, of the excursion. The accelerations of the modes feel most of what is of second
-# order in the flow, which FMU and oracle leave out in bases of their own: 1.6e-6, measured; a
-# fourth of the flow makes it 6e-8.
+# While fuel burns, relative to the excursion. Modal accelerations are most sensitive to terms of
+# second order in the flow, which FMU and oracle neglect in different bases: 1.6e-6 (measured); with
+# a quarter of the flow 6e-8.
 BURNING_EQUAL = {"n_z_imu": 5e-6}
 STEPS = 60
-# Fore of the mass centre, at the nose, at the tail, and a probe behind the nose.
+# Ahead of the mass centre, at the nose, at the tail, and a probe aft of the nose.
 STATIONS = [(16.764, 0.0), (5.0, 2.5), (0.0, 12.0), (30.0, 30.0)]
 
 

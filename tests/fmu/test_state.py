@@ -16,14 +16,14 @@ from contract import FACTORS, OFFSETS
 from harness import CONFIGURATIONS, ERROR, Instance, Package
 
 HERE = Path(__file__).parent
-# Another value for whatever is uncertain, and for where the sensors sit.
+# Other values for uncertainty parameters and sensor stations.
 UNCERTAIN = {
     **{f"{name}_factor": 1.0 + 0.003 * (k + 1) for k, name in enumerate(FACTORS)},
     **{"pitch_rate_factor": 0.7, "mass_centre_shift": 0.05},
     **{f"{name}_offset": 1e-3 * (k + 1) for k, name in enumerate(OFFSETS)},
     **{"imu_station": 12.5, "probe_station": 0.4},
 }
-# Where the model's hash begins in the bytes of a state, and the length of their checksum.
+# Offset of the model's hash in the bytes of a state, and length of their checksum.
 MODEL_HASH, CHECKSUM = 16, 8
 
 

@@ -10,8 +10,8 @@ import pytest
 from harness import OK, SLOSH_BEAM, STATES, Package
 
 STOP = 0.6
-# In tolerances, relative to the larger of value and nominal value, as the integrator sees it. The
-# unstable short period alone may multiply an early difference by e^(5 STOP), about 20.
+# In units of the tolerance, relative to the larger of value and nominal value as in the integrator.
+# The unstable short period may amplify an early difference by e^(5 STOP), about 20.
 SPLIT = 5.0
 DEFAULT_TOLERANCE = 1e-8
 

@@ -23,13 +23,13 @@ from oracle import Vehicle
 TRIM = ("alpha_trim", "delta_e_trim", "phi_trim")
 OMEGA = ("omega1", "omega2", "omega3", "omega_slosh1", "omega_slosh2")
 
-# Both solve the same equations to rounding; the conditioning costs a few digits.
+# Both solve the same equations up to rounding, amplified by the conditioning.
 TRIM_EQUAL = 1e-9
 OMEGA_EQUAL = 1e-9
 # Rates in trim: rounding of terms of about 1e3 m/s^2 (omega^2 eta) and 10 m/s^2 and 1 rad/s^2.
 RATE_AT_REST = 1e-9
-# Drift in two seconds, relative to the speed and altitude: rounding, times e^(5 t) of the unstable
-# short period.
+# Drift in two seconds, relative to speed and altitude: rounding, amplified by e^(5 t) of the
+# unstable short period.
 DRIFT = 1e-7
 
 SWEEP: list[dict[str, Any]] = [

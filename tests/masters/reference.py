@@ -12,11 +12,11 @@ from harness import ALL_STATES, CONTROLS, FUEL, OUTPUTS, Package
 
 NAMES = (*ALL_STATES, *OUTPUTS, "delta_e_effective", "phi_effective")
 STEP, STEPS = 0.01, 100
-# Masters count time differently: communication points differ by rounding, which the short period
-# amplifies by e^(5 t). Relative to each variable's excursion.
+# Communication points of masters differ by rounding, which the short period amplifies by e^(5 t).
+# Relative to each variable's excursion.
 SAME_FLIGHT = 1e-9
-# Where a solver outside of the FMU flies, against a flight whose own error is not seen: it rounds
-# an altitude of 26 km at every step, and a rounding is 1e-10 of its 5 cm of excursion.
+# For a solver outside the FMU, compared with a flight of negligible error: it rounds an altitude of
+# 26 km at every step, and a rounding error is 1e-10 of the excursion of 5 cm.
 OTHER_SOLVER = 1e-8
 EXACT = 1e-12
 
@@ -86,7 +86,7 @@ class Reference:
         when: str = "after",
         label: str = "",
     ) -> None:
-        """None of `names` is further from FMPy than `limit` of what the doublet moves it.
+        """All of `names` agree with FMPy to `limit` of their excursion in the doublet.
 
         `rows` has their values after (or before) each step. What never moves has to be equal.
         """

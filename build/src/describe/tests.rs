@@ -1,4 +1,4 @@
-//! The description against the schema's rules that no compiler sees.
+//! The model description obeys the rules of the standard that its schema does not express.
 
 use super::*;
 use crate::model_description::{Kind, ModelDescription, Real};

@@ -1,10 +1,10 @@
-//! The header of a manoeuvre: which column is what, in which unit.
+//! The header of an input file: variable and unit of each column.
 
 use crate::model_description::{Causality, ModelDescription, Variable};
 use crate::settings::suggest;
 use anyhow::{Result, bail};
 
-/// What a column holds.
+/// Content of a column.
 pub enum Role<'a> {
     Time,
     /// Value of the FMU = (number - offset) / factor.
@@ -13,7 +13,7 @@ pub enum Role<'a> {
         factor: f64,
         offset: f64,
     },
-    /// Of another variable of the FMU, such as an output in a recorded flight, or without a name.
+    /// Another variable of the FMU, such as an output in a recorded flight, or a column without a name.
     Ignored,
 }
 
@@ -22,13 +22,13 @@ pub struct Column<'a> {
     pub role: Role<'a>,
 }
 
-/// What a header looks like.
+/// An example of a header, for messages.
 pub fn example(model: &ModelDescription) -> String {
     let inputs = model.with(Causality::Input).map(|input| format!(",{}", input.name));
     format!("time{}", inputs.collect::<String>())
 }
 
-/// The columns of a header; `at` is its place in messages.
+/// Parses a header; `at` is its place in messages.
 pub fn columns<'t, 'a>(
     titles: impl Iterator<Item = &'t str>,
     at: &str,
@@ -37,8 +37,7 @@ pub fn columns<'t, 'a>(
     let titles: Vec<_> = titles.collect();
     if titles.iter().any(|title| title.replace(',', ".").parse::<f64>().is_ok()) {
         bail!(
-            "{at}: numbers where the names of the columns should be; put a header above them, such \
-             as `{}`, without `#`",
+            "{at}: numbers instead of column names; add a header line such as `{}`, without `#`",
             example(model)
         );
     }
@@ -46,17 +45,17 @@ pub fn columns<'t, 'a>(
     for title in titles {
         let column = column(title, at, model)?;
         if !column.name.is_empty() && columns.iter().any(|known| known.name == column.name) {
-            bail!("{at}: column {} is there twice", column.name);
+            bail!("{at}: there are two columns {}", column.name);
         }
         columns.push(column);
     }
-    // A delimiter at the end of the line.
+    // A delimiter at the end of the line adds a column without a name.
     while columns.last().is_some_and(|column| column.name.is_empty()) {
         columns.pop();
     }
     if !columns.iter().any(|column| matches!(column.role, Role::Time)) {
         bail!(
-            "{at}: there is no column `time`; the header has to be like `{}`, with commas, \
+            "{at}: there is no column `time`; a header is expected, such as `{}`, with commas, \
              semicolons or tabs",
             example(model)
         );

@@ -1,4 +1,4 @@
-//! The lines of a manoeuvre.
+//! The rows of an input file.
 
 use super::columns::{Column, Role, columns, example};
 use super::{Manoeuvre, Row};
@@ -6,11 +6,11 @@ use crate::model_description::{ModelDescription, Variable};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
 
-/// Longest field that a message repeats, characters.
+/// Longest part of a field quoted in a message, characters.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
-/// Reads a text; `file` is its name in messages. Empty lines and those that start with `#` count for
-/// nothing.
+/// Parses the text of an input file; `file` is its name in messages. Empty lines and lines that start with
+/// `#` are ignored.
 pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<Manoeuvre<'a>> {
     let text = text.replace("\r\n", "\n");
     let counts = |line: &str| !line.trim_matches([' ', '\t', ',', ';']).is_empty();
@@ -19,7 +19,7 @@ pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<
         .filter(|(_, line)| counts(line) && !line.trim_start().starts_with('#'))
         .unzip();
     let Some(header) = lines.first() else {
-        bail!("{file}: no header; the first line has to be like `{}`", example(model));
+        bail!("{file}: no header; the first line must be a header such as `{}`", example(model));
     };
     let joined = lines.join("\n");
     let mut reader = csv::ReaderBuilder::new()
@@ -61,7 +61,7 @@ pub fn parse<'a>(text: &str, file: &str, model: &'a ModelDescription) -> Result<
     Ok(Manoeuvre { inputs, rows, ignored: ignored.map(name).collect() })
 }
 
-/// What separates the columns of a header: the most frequent of the three, outside of quotes.
+/// The delimiter of a header: tab, semicolon or comma, whichever is most frequent outside quotes.
 fn delimiter(header: &str) -> u8 {
     let count = |wanted: &u8| {
         let mut inside = false;
@@ -71,17 +71,17 @@ fn delimiter(header: &str) -> u8 {
         });
         bytes.count()
     };
-    // Of several that are equally frequent, the last.
+    // If several are equally frequent, `max_by_key` takes the last.
     [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
 }
 
-/// Times do not decrease, no instant has more than a value before and one after it, and what lies
-/// between two rows is a number.
+/// Checks a row against the rows before it: times do not decrease, at most two rows have the same time, and
+/// slopes are finite.
 fn check_sequence(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Result<()> {
     let time = row.time;
     match rows {
         [.., last] if time < last.time => bail!(
-            "{at}, column time: {} s follows {} s; times have to increase, or stand twice for a jump",
+            "{at}, column time: {} s follows {} s; times must increase, or occur twice for a jump",
             short(time),
             short(last.time)
         ),
@@ -92,14 +92,14 @@ fn check_sequence(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Re
         [.., last] if time > last.time => {
             let span = time - last.time;
             let mut changes = inputs.iter().zip(last.values.iter().zip(&row.values));
-            // An infinite span would hide a change.
+            // The slope over an infinite span would be zero.
             let lost =
                 changes.find(|(_, (a, b))| !span.is_finite() || !((*b - *a) / span).is_finite());
             match lost {
                 None => Ok(()),
                 Some((input, _)) => bail!(
-                    "{at}, column {}: the change since the row for {} s cannot be computed, values or \
-                     times lie too far apart, or times too close; a jump is two rows with the same time",
+                    "{at}, column {}: the slope since the row for {} s is not finite: values or times \
+                     are too far apart, or times too close; a jump is two rows with the same time",
                     input.name,
                     short(last.time)
                 ),
@@ -109,7 +109,7 @@ fn check_sequence(row: &Row, rows: &[Row], inputs: &[&Variable], at: &str) -> Re
     }
 }
 
-/// `decimal_mark` is the decimal decimal_mark of the file, once one was seen.
+/// Parses a row. `decimal_mark` is that of the file, once a number has shown it.
 fn row(
     record: &csv::StringRecord,
     at: &str,
@@ -151,12 +151,12 @@ fn row(
     Ok(Row { time, values })
 }
 
-/// The FMU would end the flight there.
+/// Refuses a value at which the FMU would end the flight.
 fn check_range(value: f64, variable: &Variable) -> Result<()> {
     let [min, max] = variable.range();
     if !(min..=max).contains(&value) {
         let [value, min, max] = [value, min, max].map(short);
-        bail!("{value} {} is beyond the range of the FMU, [{min}, {max}]", variable.unit());
+        bail!("{value} {} is outside the range of the FMU, [{min}, {max}]", variable.unit());
     }
     Ok(())
 }
@@ -165,7 +165,7 @@ fn number(field: &str, decimal_mark: &mut Option<char>) -> Result<f64> {
     if let Some(found) = field.chars().find(|c| matches!(c, '.' | ',')) {
         let known = *decimal_mark.get_or_insert(found);
         if known != found {
-            bail!("`{field}` has a decimal `{found}` where numbers before have `{known}`");
+            bail!("`{field}` has a decimal `{found}`, earlier numbers have `{known}`");
         }
     }
     if field.is_empty() {
@@ -221,16 +221,16 @@ mod tests {
     fn refusals_name_file_line_and_column() {
         let model = model();
         for (text, expected) in [
-            ("", "a.csv: no header; the first line has to be like `time,delta_e,phi"),
+            ("", "a.csv: no header; the first line must be a header such as `time,delta_e,phi"),
             ("\n# time,phi\n", "a.csv: no header"),
             ("t,phi\n", "a.csv, line 1: there is no input `t`"),
             ("phi\n1\n", "a.csv, line 1: there is no column `time`"),
-            ("0,1\n1,1\n", "a.csv, line 1: numbers where the names of the columns should be"),
-            ("# time;phi\n0,5;1\n", "a.csv, line 2: numbers where the names"),
+            ("0,1\n1,1\n", "a.csv, line 1: numbers instead of column names"),
+            ("# time;phi\n0,5;1\n", "a.csv, line 2: numbers instead of column names"),
             ("time,delta\n", "line 1: there is no input `delta`; did you mean delta_e?"),
             ("time,mach0\n", "line 1: mach0 is a parameter, which does not change in flight"),
-            ("time,phi,phi\n", "line 1: column phi is there twice"),
-            ("time,Time\n", "line 1: column time is there twice"),
+            ("time,phi,phi\n", "line 1: there are two columns phi"),
+            ("time,Time\n", "line 1: there are two columns time"),
             ("time[ms],phi\n", "column time: unit `ms` is unknown; s is expected"),
             ("time,delta_e[grad]\n", "column delta_e: unit `grad` is unknown; rad or deg"),
             ("time,phi[%]\n", "column phi: unit `%` is unknown; 1 is expected"),
@@ -241,15 +241,18 @@ mod tests {
             ("time,phi\r\n\r\n0,\r\n", "a.csv, line 3, column phi: the value is missing"),
             ("time,phi\n0,inf\n", "line 2, column phi: `inf` is not a finite number"),
             ("time,phi\n0,NaN\n", "line 2, column phi: `NaN` is not a finite number"),
-            ("time;phi\n0;0.5\n1;1,5\n", "line 3, column phi: `1,5` has a decimal `,` where"),
+            (
+                "time;phi\n0;0.5\n1;1,5\n",
+                "line 3, column phi: `1,5` has a decimal `,`, earlier numbers",
+            ),
             ("time;phi\n0;1.000,5\n", "line 2, column phi: `1.000,5` is not a finite number"),
             ("time,phi\n0,\"1\n2,3\n", "line 2: a quotation decimal_mark opens and is not closed"),
             ("time,phi\n1,0\n#\n0.5,0\n", "line 4, column time: 0.5 s follows 1 s"),
-            ("time,w_gust\n0,0\n1,201\n", "line 3, column w_gust: 201 m/s is beyond the range"),
-            ("time,w_gust\n0,-1e200\n", "-1e200 m/s is beyond the range of the FMU, [-200, 200]"),
-            ("time,delta_e,phi\n0,0,0\n1,0,1e308\n2,0,-1e308\n", "line 4, column phi: the change"),
-            ("time,phi\n0,0\n5e-324,1\n", "the change since the row for 0 s cannot be"),
-            ("time,phi\n-1e308,0\n1e308,0\n", "line 3, column phi: the change since the row for"),
+            ("time,w_gust\n0,0\n1,201\n", "line 3, column w_gust: 201 m/s is outside the range"),
+            ("time,w_gust\n0,-1e200\n", "-1e200 m/s is outside the range of the FMU, [-200, 200]"),
+            ("time,delta_e,phi\n0,0,0\n1,0,1e308\n2,0,-1e308\n", "line 4, column phi: the slope"),
+            ("time,phi\n0,0\n5e-324,1\n", "the slope since the row for 0 s is not finite"),
+            ("time,phi\n-1e308,0\n1e308,0\n", "line 3, column phi: the slope since the row for"),
             ("time,phi\n1,0\n1,1\n1,2\n", "line 4, column time: a third row for 1 s"),
         ] {
             let error = parse(text, "a.csv", &model).unwrap_err();

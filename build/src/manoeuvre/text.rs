@@ -1,11 +1,11 @@
-//! From bytes to text: UTF-8, or UTF-16 as spreadsheets write it, with a byte order mark or without.
+//! Decodes text: UTF-8 with or without a byte order mark, or UTF-16 with one, as spreadsheets write it.
 
 use anyhow::{Result, bail};
 
-/// The text without its mark; `file` is its name in messages.
+/// The text without its byte order mark; `file` is its name in messages.
 pub fn decode(bytes: &[u8], file: &str) -> Result<String> {
     match bytes {
-        // UTF-32 begins as UTF-16 does.
+        // The mark of UTF-32 starts with that of UTF-16.
         [0xff, 0xfe, 0, 0, ..] => {
             bail!("{file}: the text is in UTF-32; save the file as CSV in UTF-8")
         }
@@ -22,7 +22,7 @@ fn utf8(bytes: &[u8], file: &str) -> Result<String> {
         Ok(text) => match bytes.iter().position(|byte| *byte == 0) {
             None => Ok(text.to_string()),
             Some(at) => bail!(
-                "{file}, line {}: a zero byte, which no text has; save the file as CSV in UTF-8",
+                "{file}, line {}: a zero byte, which text cannot contain; save the file as CSV in UTF-8",
                 ending(&bytes[..at])
             ),
         },
@@ -38,7 +38,7 @@ fn utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16, file: &str) -> Result<String> {
     let text: Result<String, _> = char::decode_utf16(pairs.iter().copied().map(unit)).collect();
     match text {
         Ok(text) if rest.is_empty() && !text.contains('\0') => Ok(text),
-        _ => bail!("{file}: the text begins as UTF-16 and is damaged; save the file again"),
+        _ => bail!("{file}: the text starts as UTF-16 but is damaged; save the file again"),
     }
 }
 
@@ -62,8 +62,8 @@ mod tests {
         for (bytes, expected) in [
             (b"time\n0\n\xb0".as_slice(), "a.csv, line 3: the text is not in UTF-8"),
             (b"time\n\0".as_slice(), "a.csv, line 2: a zero byte"),
-            (b"\xff\xfet".as_slice(), "a.csv: the text begins as UTF-16 and is damaged"),
-            (b"\xff\xfet\0\0\0".as_slice(), "a.csv: the text begins as UTF-16 and is damaged"),
+            (b"\xff\xfet".as_slice(), "a.csv: the text starts as UTF-16 but is damaged"),
+            (b"\xff\xfet\0\0\0".as_slice(), "a.csv: the text starts as UTF-16 but is damaged"),
             (b"\xff\xfe\0\0t\0\0\0".as_slice(), "a.csv: the text is in UTF-32"),
         ] {
             let message = decode(bytes, "a.csv").unwrap_err().to_string();

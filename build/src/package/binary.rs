@@ -1,4 +1,4 @@
-//! What a library needs from the machine that loads it, and what it offers: read from the file.
+//! Inspects a library: format, dependencies and exported functions.
 
 use super::platform::Platform;
 use anyhow::{Context, Result, bail};
@@ -12,8 +12,8 @@ use std::collections::BTreeSet;
 /// Version of the GNU C library: major, minor.
 pub type Glibc = (u32, u32);
 
-/// The newest glibc that the library for Linux may ask for: that of the oldest distributions in
-/// use, and of Rust's own standard library.
+/// The newest glibc that the Linux library may need: that of Rust's standard library, and of the oldest
+/// distributions in use.
 pub const GLIBC: Glibc = (2, 17);
 
 /// Parts of glibc, which every Linux has.
@@ -26,7 +26,7 @@ const LINUX_LIBRARIES: [&str; 6] = [
     "ld-linux-aarch64.so.1",
 ];
 
-/// What Rust links with where nobody asks for less: on nearly every Linux, but not on all.
+/// Linked by default; on nearly every Linux, but not on all.
 const UNWINDER: &str = "libgcc_s.so.1";
 
 /// Libraries that every Windows has, in lower case.
@@ -45,12 +45,12 @@ const WINDOWS_LIBRARIES: [&str; 9] = [
 /// Where macOS keeps its own libraries.
 const MACOS_FOLDERS: [&str; 2] = ["/usr/lib/", "/System/Library/"];
 
-/// A library as its file describes it.
+/// Properties of a library.
 #[derive(Debug)]
 pub struct Binary {
     format: BinaryFormat,
     architecture: Architecture,
-    /// Newest version of glibc that a symbol asks for; none if there is no such symbol.
+    /// Newest version of glibc that a symbol needs; `None` without such a symbol.
     pub glibc: Option<Glibc>,
     /// Names of the libraries that are loaded with it.
     pub needed: BTreeSet<String>,
@@ -61,7 +61,7 @@ pub struct Binary {
 impl Binary {
     /// Reads an ELF, PE or Mach-O file.
     pub fn parse(bytes: &[u8]) -> Result<Self> {
-        const OTHER: &str = "this is no shared library";
+        const OTHER: &str = "this is not a shared library";
         let file = File::parse(bytes).ok().context(OTHER)?;
         if file.kind() != ObjectKind::Dynamic {
             bail!(OTHER);
@@ -93,7 +93,7 @@ impl Binary {
         Ok(Self { format, architecture, glibc: None, needed, exports })
     }
 
-    /// Refuses a library for other systems or processors.
+    /// Checks operating system and processor.
     pub fn is_for(&self, platform: Platform) -> Result<()> {
         let format = match platform.os {
             "linux" => BinaryFormat::Elf,
@@ -115,8 +115,8 @@ impl Binary {
         Ok(())
     }
 
-    /// Refuses what is not a library for the platform with the functions of FMI, or needs what is not
-    /// part of a system.
+    /// Checks that the library is for the platform, exports exactly the functions of FMI 2.0, and depends only
+    /// on libraries of the system.
     pub fn check(&self, platform: Platform) -> Result<()> {
         self.is_for(platform)?;
         let known: fn(&str) -> bool = match platform.os {
@@ -139,12 +139,16 @@ impl Binary {
         }
         let more: Vec<_> = self.exports.difference(&standard).cloned().collect();
         if !more.is_empty() {
-            bail!("{} exports more than FMI 2.0 has: {}", platform.name, more.join(", "));
+            bail!(
+                "{} exports functions that are not in FMI 2.0: {}",
+                platform.name,
+                more.join(", ")
+            );
         }
         Ok(())
     }
 
-    /// Refuses also what an old system does not have.
+    /// Also checks that old systems have the dependencies.
     pub fn check_everywhere(&self, platform: Platform) -> Result<()> {
         self.check(platform)?;
         if self.needed.contains(UNWINDER) {
@@ -187,10 +191,10 @@ fn elf(bytes: &[u8]) -> Result<(BTreeSet<String>, BTreeSet<String>)> {
     Ok((needed, versions))
 }
 
-/// `GLIBC_2.14` or `GLIBC_2.2.5`; nothing for the versions of other libraries.
+/// Parses `GLIBC_2.14` or `GLIBC_2.2.5`; `None` for versions of other libraries.
 fn version(name: &str) -> Option<Glibc> {
     let mut numbers = name.strip_prefix("GLIBC_")?.split('.').map(str::parse);
-    // An unknown version is refused as the newest.
+    // An unreadable version counts as the newest, and is refused.
     let mut number = || numbers.next().and_then(Result::ok).unwrap_or(u32::MAX);
     Some((number(), number()))
 }
@@ -234,7 +238,7 @@ mod tests {
             let message = binary.check_everywhere(platform).unwrap_err().to_string();
             assert!(message.contains(reason), "{message}");
         }
-        // A machine may use what it has for a library of its own.
+        // A library for this machine only may use everything that it has.
         assert!(linux((2, 36), UNWINDER).check(LINUX).is_ok());
         let mut arm = linux((2, 17), "libc.so.6");
         arm.architecture = Architecture::Aarch64;
@@ -251,7 +255,7 @@ mod tests {
     fn what_is_no_library_or_only_its_beginning_is_refused() {
         let tool = crate::workspace::read(&std::env::current_exe().unwrap(), u64::MAX - 1).unwrap();
         let told = |bytes: &[u8]| format!("{:#}", Binary::parse(bytes).unwrap_err());
-        assert_eq!(told(b"# ahv"), "this is no shared library");
+        assert_eq!(told(b"# ahv"), "this is not a shared library");
         assert!(told(&tool[..tool.len() / 2]).contains("library"));
     }
 }

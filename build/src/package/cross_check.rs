@@ -1,4 +1,4 @@
-//! The files of the FMI cross-check: inputs, options and what comes out, for whoever imports the FMU.
+//! The files of the FMI cross-check: inputs, options and reference outputs.
 
 use super::Files;
 use crate::describe::MODEL_IDENTIFIER;
@@ -11,15 +11,14 @@ use crate::simulation;
 use crate::workspace::{MAX_TEXT_BYTES, read, root};
 use anyhow::{Result, bail};
 
-/// Where a file of the set is in the FMU.
+/// Path of one of the files in the FMU.
 pub fn path(ending: &str) -> String {
     format!("documentation/cross-check/{MODEL_IDENTIFIER}_{ending}")
 }
 
-/// Flies the example's doublet with an FMU; files by their names.
+/// Flies the elevator doublet of the examples with an FMU; returns the files by name.
 ///
-/// The input file is the example itself. Its jumps are doubled rows at multiples of the step, so every
-/// tool flies the same.
+/// The jumps of the input are at multiples of the step, so every tool can reproduce the flight.
 pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     let (model, default) = (&fmu.model, &fmu.model.experiment);
     let stop = positive("stop time", default.stop_time)?;
@@ -35,7 +34,7 @@ pub fn fly_reference(fmu: &Fmu) -> Result<Files> {
     if let Some(reason) = flown.discard_reason {
         bail!("the reference flight ends early: {reason}");
     }
-    // A row has the outputs at the end of a step, before an input jumps.
+    // One row per instant: the outputs at the end of a step, before an input jumps.
     flown.record.rows.dedup_by_key(|row| row[0]);
     instance.terminate()?;
 

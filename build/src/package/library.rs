@@ -12,20 +12,19 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// The library for this machine, linked as Cargo does: it needs the C library of this machine.
+/// Builds the library for this machine, which then needs its C library or a newer one.
 pub fn for_host() -> Result<PathBuf> {
     let mut command = cargo();
     command.arg("rustc");
     compile(command, host()?, "host", Vec::new())
 }
 
-/// The linker of zig, which knows the interfaces of all glibc versions.
+/// The linker of zig, which has the interfaces of all glibc versions.
 pub fn zig() -> Result<Environment> {
     environment("zig", &root().join("build/zig/requirements.lock"))
 }
 
-/// The library for Linux, linked against the interface of an old C library: it runs with glibc
-/// 2.17 and newer.
+/// Builds the library for Linux, linked against the interface of glibc 2.17.
 pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
     let caches = target().join("fmu/zig");
     let mut command = Command::new(zig.programs.join("cargo-zigbuild"));
@@ -39,17 +38,16 @@ pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
     compile(command, LINUX, LINUX.name, Vec::new())
 }
 
-/// The library for Windows.
+/// Builds the library for Windows.
 pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
     let mut flags = vec!["-Clink-arg=-Wl,--no-insert-timestamp".into()];
     flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
     compile(toolchain.command, WINDOWS, WINDOWS.name, flags)
 }
 
-/// Runs a `cargo rustc` with our options; where Cargo put the library.
+/// Runs `cargo rustc` with our options; returns the path of the library.
 ///
-/// Every kind of build has a target directory of its own, because their compilers and flags
-/// differ, and would otherwise overwrite each other.
+/// Each kind of build has its own target directory, because compilers and flags differ.
 fn compile(
     mut command: Command,
     platform: Platform,
@@ -57,7 +55,7 @@ fn compile(
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
     command
-        // A library for C alone can be optimised together with what it is made of: 4 % smaller.
+        // With the C interface only, link-time optimisation makes the library 4 % smaller.
         .args(["--release", "--package", "ahv-fmu", "--lib", "--crate-type", "cdylib"])
         .args(["--config", "profile.release.lto='fat'"])
         .args(["--config", "profile.release.strip='symbols'"])
@@ -70,7 +68,7 @@ fn compile(
         .output()
         .with_context(|| format!("cannot start {}", command.get_program().display()))?;
     if !output.status.success() {
-        bail!("the library for {} does not build: see the messages above", platform.name);
+        bail!("the library for {} does not compile: see the messages above", platform.name);
     }
     String::from_utf8_lossy(&output.stdout)
         .lines()
@@ -85,11 +83,11 @@ fn compile(
                     stem.to_string_lossy().trim_start_matches("lib") == MODEL_IDENTIFIER
                 })
         })
-        .ok_or_else(|| anyhow!("cargo did not say where the library ahv.{} is", platform.ending))
+        .ok_or_else(|| anyhow!("cargo reported no path of the library ahv.{}", platform.ending))
 }
 
-/// Flags of the user, ours, and those that keep the builder's directories out of the library: panic
-/// messages name source files.
+/// Compiler flags: the user's, ours, and those that remove local directories from the source paths in panic
+/// messages.
 fn rustflags(ours: Vec<OsString>) -> OsString {
     let home = variable("CARGO_HOME")
         .map(PathBuf::from)
@@ -99,7 +97,7 @@ fn rustflags(ours: Vec<OsString>) -> OsString {
     let registries = home.and_then(|home| fs::read_dir(home.join("registry/src")).ok());
     let directories = registries.into_iter().flatten().flatten();
     prefixes.extend(directories.map(|directory| (directory.path(), "crates")));
-    // Of several prefixes that fit, the compiler takes the last.
+    // Where several prefixes match, the compiler takes the last.
     prefixes.sort();
     let user = variable("RUSTFLAGS").unwrap_or_default();
     let user = user.to_str().unwrap_or_default().split_whitespace().map(OsString::from);

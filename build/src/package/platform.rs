@@ -1,20 +1,20 @@
-//! Platforms by their names in an FMU.
+//! Platforms and their folder names in an FMU.
 //!
-//! FMI 2.0 has names for x86-64 only; for other processors those of FMI 3.0 stand in.
+//! FMI 2.0 has names for x86-64 only; for other processors the names of FMI 3.0 are used.
 
 use super::binary::{GLIBC, Glibc};
 use anyhow::{Context, Result, bail};
 use std::env::consts::{ARCH, OS};
 use std::path::PathBuf;
 
-/// A platform that has a name in an FMU.
+/// A platform of an FMU.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Platform {
     /// Folder below `binaries`.
     pub name: &'static str,
-    /// Ending of a library.
+    /// File extension of a library.
     pub ending: &'static str,
-    /// Rust's names of its system, processor and both.
+    /// Rust's names of operating system, architecture and target.
     pub os: &'static str,
     pub arch: &'static str,
     pub triple: &'static str,
@@ -62,17 +62,17 @@ const PLATFORMS: [Platform; 6] = [
 
 /// The platform of this machine.
 pub fn host() -> Result<Platform> {
-    of(OS, ARCH).with_context(|| format!("FMI has no name for a platform like {OS} on {ARCH}"))
+    of(OS, ARCH).with_context(|| format!("FMI has no platform name for {OS} on {ARCH}"))
 }
 
-/// The platform with a system and a processor, by Rust's names of them.
+/// The platform with Rust's names of operating system and architecture.
 fn of(os: &str, arch: &str) -> Option<Platform> {
     PLATFORMS.into_iter().find(|platform| (platform.os, platform.arch) == (os, arch))
 }
 
 impl Platform {
-    /// The machines that it serves, for readers; `glibc`: the newest that the library asks for.
-    /// Less than what every build is allowed to ask for is not promised.
+    /// Description of the supported machines; `glibc` is the newest version that the library needs. Versions
+    /// below [`GLIBC`] are not promised.
     pub fn machines(self, glibc: Option<Glibc>) -> String {
         let system = match self.os {
             "linux" => "Linux",
@@ -88,7 +88,7 @@ impl Platform {
     }
 }
 
-/// A library given as `platform=file`.
+/// Parses a `--library` option, `platform=file`.
 pub fn parse_library_option(text: &str) -> Result<(Platform, PathBuf)> {
     let known = || PLATFORMS.map(|platform| platform.name).join(", ");
     let Some((name, file)) = text.split_once('=') else {

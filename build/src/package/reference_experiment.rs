@@ -1,5 +1,5 @@
-//! extra/org.fmi-standard.fmi-ls-ref: the reference flight as an experiment that a tool can find and
-//! repeat by itself (FMI Layered Standard References, 1.0.0-alpha.1).
+//! extra/org.fmi-standard.fmi-ls-ref: the reference flight as an experiment that tools can find and
+//! repeat (FMI Layered Standard References, 1.0.0-alpha.1).
 
 use super::{Files, cross_check};
 use crate::fly::STEP;
@@ -8,7 +8,7 @@ use anyhow::Result;
 use fmi_model::describe::Xml;
 
 const NAME: &str = "org.fmi-standard.fmi-ls-ref";
-/// Root of the FMU, seen from the directory of the standard.
+/// Root of the FMU relative to the directory of the standard.
 const UP: &str = "../../";
 const EXPERIMENTS: &str = "experiments.xml";
 const DESCRIPTION: &str = "Elevator doublet from level flight";
@@ -28,7 +28,7 @@ fn manifest() -> Result<String> {
     let related = [
         ("text/xml", EXPERIMENTS.to_string(), "experiment", "Reference flight"),
         ("text/csv", inputs, "testcase", "Its inputs"),
-        ("text/csv", outputs, "result", "What comes out, to 1e-9 of the largest value"),
+        ("text/csv", outputs, "result", "Its outputs, to 1e-9 of the largest value"),
         (
             "text/html",
             format!("{UP}documentation/index.html"),

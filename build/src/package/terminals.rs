@@ -1,5 +1,5 @@
-//! terminalsAndIcons: inputs and outputs in groups that a tool connects and draws as one (FMI 2.0.4,
-//! section 2.3; the file itself is that of FMI 3.0, section 2.4.9).
+//! terminalsAndIcons: groups of inputs and outputs that a tool can connect as one (FMI 2.0.4,
+//! section 2.3; file format of FMI 3.0, section 2.4.9).
 
 use super::{Files, icon};
 use anyhow::Result;
@@ -8,13 +8,13 @@ use fmi_model::describe::terminals::{Side, Terminal, terminals_and_icons};
 const TERMINALS: [Terminal; 6] = [
     Terminal {
         name: "controls",
-        description: "What an autopilot commands",
+        description: "Commands of an autopilot",
         side: Side::Input,
         variables: &["delta_e", "phi"],
     },
     Terminal {
         name: "air",
-        description: "Motion of the air",
+        description: "Velocity of the air",
         side: Side::Input,
         variables: &["w_gust", "u_gust"],
     },
@@ -32,19 +32,19 @@ const TERMINALS: [Terminal; 6] = [
     },
     Terminal {
         name: "loads",
-        description: "Forces, moment and what they scale with",
+        description: "Forces, moment, Mach number, dynamic pressure and load factor",
         side: Side::Output,
         variables: &["lift", "drag", "thrust", "moment", "mach", "qbar", "n_z", "choking_margin"],
     },
     Terminal {
         name: "sensors",
-        description: "What an inertial measurement unit and an incidence vane on the bent body see",
+        description: "Inertial measurement unit and incidence vane on the bent body",
         side: Side::Output,
         variables: &["theta_imu", "q_imu", "gamma_imu", "n_z_imu", "n_x_imu", "alpha_probe"],
     },
 ];
 
-/// The directory, with the picture of the vehicle as its icon.
+/// The files of the directory.
 pub fn files() -> Result<Files> {
     let xml = terminals_and_icons(&TERMINALS)?.into_bytes();
     let mut files = Files::from([("terminalsAndIcons/terminalsAndIcons.xml".to_string(), xml)]);

@@ -1,4 +1,4 @@
-//! Which compiler makes the library for Windows.
+//! Selects the compiler of the Windows library.
 
 use super::platform::WINDOWS;
 use crate::workspace::{cargo, root, target, variable};
@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow, bail};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Links for Windows; of the MinGW-w64 project.
+/// Linker for Windows, from MinGW-w64.
 const LINKER: &str = "x86_64-w64-mingw32-gcc";
 
 const HOW_TO_GET: &str = "on Debian: apt-get install gcc-mingw-w64-x86-64 rustc-web cargo-web \
@@ -16,14 +16,14 @@ const HOW_TO_GET: &str = "on Debian: apt-get install gcc-mingw-w64-x86-64 rustc-
 /// A Cargo that can build for Windows, up to its subcommand's options.
 pub struct Toolchain {
     pub command: Command,
-    /// Sources of the standard library, if it is compiled too.
+    /// Sources of the standard library, if it has to be compiled.
     pub std: Option<PathBuf>,
 }
 
-/// Finds one: the Cargo that runs this tool if it has the target, otherwise Debian's, which brings
-/// the sources of the standard library.
+/// The Cargo that runs this tool if it has the Windows target, otherwise Debian's with the sources of the
+/// standard library.
 pub fn toolchain() -> Result<Toolchain> {
-    let missing = |what: &str| anyhow!("win64 is not in it: {what}; {HOW_TO_GET}");
+    let missing = |what: &str| anyhow!("without win64: {what}; {HOW_TO_GET}");
     if output_of(Path::new(LINKER), &["--version"]).is_none() {
         return Err(missing(&format!("the linker {LINKER} is missing")));
     }
@@ -68,9 +68,9 @@ fn debian() -> Result<(Command, PathBuf)> {
         .current_dir(root())
         .args(["rustc", "-Zbuild-std=std,panic_unwind"])
         .env("RUSTC", rustc)
-        // The released compiler refuses -Z without it.
+        // Allows -Z with a stable compiler.
         .env("RUSTC_BOOTSTRAP", "1")
-        // The libraries of the other toolchain are none of its business.
+        // Set by rustup for the libraries of the other toolchain.
         .env_remove("LD_LIBRARY_PATH");
     Ok((command, std))
 }
@@ -80,7 +80,7 @@ fn has_target(rustc: &Path) -> bool {
         .is_some_and(|directory| Path::new(&directory).exists())
 }
 
-/// What a program prints, if it is there and content.
+/// Standard output of a program, if it exists and succeeds.
 fn output_of(program: &Path, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).trim().to_string();

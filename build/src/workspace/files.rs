@@ -1,4 +1,4 @@
-//! Reading and writing of files: a reader takes no more than it can use, a writer replaces all or nothing.
+//! Reading files with a size limit, and replacing files whole or not at all.
 
 use super::shown;
 use anyhow::{Context, Result, bail};
@@ -8,17 +8,17 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// Most bytes of a data file; ours have 8 kB.
+/// Size limit of a data file; ours have 8 kB.
 pub const MAX_DATA_BYTES: u64 = 1_000_000;
-/// Most bytes of a text: a record of a million steps has 200 MB.
+/// Size limit of a text; the record of a million steps has 200 MB.
 pub const MAX_TEXT_BYTES: u64 = 500_000_000;
-/// Most bytes of a library or an FMU.
+/// Size limit of a library or an FMU.
 pub const MAX_BINARY_BYTES: u64 = 500_000_000;
 
-/// Contents of files that belong together, by their paths.
+/// Contents of files that belong together, by path.
 pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// Reads a regular file of at most `most` bytes. Devices and pipes may never end.
+/// Reads a regular file of at most `most` bytes. Devices and pipes, which may never end, are refused.
 #[allow(clippy::disallowed_methods)]
 pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let name = shown(path);
@@ -34,7 +34,7 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>> {
     let file = File::open(path).with_context(cannot)?;
     file.take(most + 1).read_to_end(&mut content).with_context(cannot)?;
     if content.len() as u64 > most {
-        bail!("{name} is too large: the limit for such a file is {} MB", most / 1_000_000);
+        bail!("{name} is too large: the limit is {} MB", most / 1_000_000);
     }
     Ok(content)
 }
@@ -47,29 +47,32 @@ pub fn read_text(path: &Path, most: u64) -> Result<String> {
     }
 }
 
-/// Writes a file and the directories above it; after a failure the old file is still there, whole.
+/// Writes a file and creates its directories. After a failure the old file is unchanged.
 pub fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<()> {
     Staged::new(path, content.as_ref())?.rename()
 }
 
-/// Writes files that belong together: all of them are on the disk before the first takes its name.
+/// Writes files that belong together: all are on the disk before the first is renamed.
 pub fn write_together(files: &Files) -> Result<()> {
     let staged = files.iter().map(|(path, content)| Staged::new(path, content));
     for (done, staged) in staged.collect::<Result<Vec<_>>>()?.into_iter().enumerate() {
         staged.rename().with_context(|| {
-            format!("{done} of {} files that belong together are new, the others old", files.len())
+            format!(
+                "{done} of {} files that belong together were replaced, the others were not",
+                files.len()
+            )
         })?;
     }
     Ok(())
 }
 
-/// Fails early where a file cannot be written later: before something long is computed.
+/// Fails if a file cannot be written; called before long computations.
 pub fn can_write(path: &Path) -> Result<()> {
-    place(path).map(drop)
+    writable_path(path).map(drop)
 }
 
-/// Where a file will be written; a link stays one, and its file is replaced. Makes the directories.
-fn place(path: &Path) -> Result<PathBuf> {
+/// The path to write to; for a link, its target. Creates the directories.
+fn writable_path(path: &Path) -> Result<PathBuf> {
     let cannot = || format!("cannot write {}", shown(path));
     match fs::metadata(path) {
         Ok(old) if old.is_dir() => bail!("{}: it is a directory", cannot()),
@@ -80,7 +83,7 @@ fn place(path: &Path) -> Result<PathBuf> {
     }
     let path = std::path::absolute(path).with_context(cannot)?;
     let directory = path.parent().with_context(cannot)?;
-    if let Some(file) = directory.ancestors().find(|place| place.is_file()) {
+    if let Some(file) = directory.ancestors().find(|above| above.is_file()) {
         bail!("{}: {} is a file, not a directory", cannot(), shown(file));
     }
     fs::create_dir_all(directory)
@@ -88,7 +91,7 @@ fn place(path: &Path) -> Result<PathBuf> {
     Ok(path)
 }
 
-/// A file written beside its place. It goes if it is dropped.
+/// A temporary file beside its destination, deleted when dropped.
 struct Staged {
     file: NamedTempFile,
     path: PathBuf,
@@ -98,14 +101,14 @@ impl Staged {
     fn new(path: &Path, content: &[u8]) -> Result<Self> {
         let cannot = || format!("cannot write {}", shown(path));
         let old = fs::metadata(path).ok();
-        let path = place(path)?;
+        let path = writable_path(path)?;
         let directory = path.parent().with_context(cannot)?;
         let mut file = beside(directory).with_context(cannot)?;
         file.write_all(content).with_context(cannot)?;
         if let Some(old) = old {
             file.as_file().set_permissions(old.permissions()).with_context(cannot)?;
         }
-        // Some disks notice only now that they are full.
+        // Some file systems report a full disk only here.
         file.as_file().sync_all().with_context(cannot)?;
         Ok(Self { file, path })
     }
@@ -117,7 +120,7 @@ impl Staged {
     }
 }
 
-/// A new file with the permissions that every new file has.
+/// A temporary file with the default permissions of new files.
 fn beside(directory: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = Builder::new();
     builder.prefix(".ahv-");

@@ -1,4 +1,4 @@
-//! Files are read with limits and written whole or not at all; the repository is found at run time.
+//! Tests: files are read with limits and written whole or not at all; the repository is found at run time.
 #![allow(clippy::disallowed_methods)]
 
 use super::*;
@@ -13,7 +13,7 @@ fn names(directory: &Path) -> Vec<String> {
     names
 }
 
-/// A repository as far as the search can tell.
+/// A directory that the search accepts as a repository.
 fn repository(directory: &Path) {
     fs::create_dir_all(directory.join("build")).unwrap();
     fs::write(directory.join("Cargo.toml"), "[package]\nname = \"ahv-fmu\"\n").unwrap();

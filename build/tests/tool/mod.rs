@@ -1,4 +1,4 @@
-//! The tool, as a user types it, and an FMU for it.
+//! Runs the tool and provides an FMU for it.
 #![allow(dead_code)]
 
 use std::fs;

@@ -52,7 +52,7 @@ def measure(name, file, repeats, inputs=INPUTS, outputs=OUTPUTS):
 def main():
     repeats, ahv, idle, *python = sys.argv[1:]
     measure("ours", ahv, int(repeats))
-    measure("steps that do nothing", idle, int(repeats), ("u1", "u2"), ("y1", "y2", "y3", "y4", "y5"))
+    measure("empty steps", idle, int(repeats), ("u1", "u2"), ("y1", "y2", "y3", "y4", "y5"))
     for file in python:
         measure("PythonFMU", file, min(int(repeats), 3))
 

@@ -1,5 +1,5 @@
-//! Measures what the vehicle costs, beside what a user would take instead. Never a test: a busy
-//! machine makes every time longer.
+//! `cargo ahv bench`: measures speed and size of the vehicle and of alternatives. Not a test, because times depend
+//! on the load of the machine.
 
 mod chart;
 #[cfg(feature = "diffsol")]
@@ -21,19 +21,19 @@ use anyhow::Result;
 use report::Report;
 use std::time::Duration;
 
-/// How much is done for a figure.
+/// Number of repetitions and flights.
 #[derive(Debug, Clone, Copy)]
 pub struct Effort {
-    /// Repetitions whose median counts.
+    /// Repetitions, of which the median is taken.
     pub repeats: usize,
-    /// Least duration of one repetition of something short.
+    /// Shortest duration of one repetition.
     pub batch: Duration,
     /// Flights of the ensemble, and instances in one process.
     pub many: usize,
 }
 
 const FULL: Effort = Effort { repeats: 9, batch: Duration::from_millis(50), many: 10_000 };
-/// Enough to see that everything runs.
+/// Enough to check that everything runs.
 const QUICK: Effort = Effort { repeats: 3, batch: Duration::from_millis(1), many: 100 };
 
 pub fn run(options: &Bench) -> Result<()> {
@@ -52,7 +52,7 @@ pub fn run(options: &Bench) -> Result<()> {
         let lines = measure(&effort, &mut report);
         match lines {
             Err(error) if !options.only.is_empty() => return Err(error.context(name)),
-            // What is missing on this machine costs its own part only.
+            // A part that fails, for lack of a program, does not stop the others.
             Err(error) => report.left_out(name, &error),
             Ok(()) => {}
         }

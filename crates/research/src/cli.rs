@@ -1,11 +1,11 @@
-//! What can be typed after `cargo ahv` of what makes the numbers.
+//! Command line of the research commands of `cargo ahv`.
 
 use crate::reproduce::Part;
 use ahv_tool::cli::Set;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
-/// What makes the numbers of ahv, and what they are measured against.
+/// Derives the numbers of ahv, and compares them.
 #[derive(Debug, Parser)]
 #[command(name = "cargo ahv", bin_name = "cargo ahv", version, arg_required_else_help = true)]
 pub struct Cli {
@@ -22,10 +22,10 @@ pub enum Command {
     Bench(Bench),
 }
 
-/// Set every table, claim and computed figure of the paper beside ours; write a report
+/// Compare every table, claim and computed figure of the paper with ours; write a report
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Output files: report.html (stands alone), report.md, report.json, figures/*.svg, figures/*.png.
+Output files: report.html (self-contained), report.md, report.json, figures/*.svg, figures/*.png.
 
 Examples:
   cargo ahv reproduce
@@ -33,10 +33,10 @@ Examples:
   cargo ahv reproduce --only fig6 --only fig8 --output target/sweeps
   cargo ahv reproduce --aero all")]
 pub struct Reproduce {
-    /// Only this part (may be repeated or separated by commas)
+    /// Only this part (repeatable, or separated by commas)
     #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
     pub only: Vec<Part>,
-    /// Coefficient set, or `all` (may be repeated or separated by commas) [default: that of the FMU]
+    /// Coefficient set, or `all` (repeatable, or separated by commas) [default: that of the FMU]
     #[arg(long, value_name = "SET", value_delimiter = ',')]
     pub aero: Vec<String>,
     /// Directory for the report [default: target/report]
@@ -44,55 +44,55 @@ pub struct Reproduce {
     pub output: Option<PathBuf>,
 }
 
-/// Find numbers that are not published from results that are; write their data file
+/// Identify unpublished numbers from published results; write their data file
 #[derive(Debug, Args)]
 #[command(after_help = "\
 What can be identified:
-  beam     stiffness and tanks: the most ordinary ones that give Table 1 and, from even to
-           sloshing mass, the growth of the short period in Table 2; writes their numbers in
+  beam     stiffness and tanks: those nearest to a prior that give Table 1 and the growth of
+           the short period from even to sloshing mass in Table 2; writes them to
            src/data/vehicle.toml
-  xu2015   coefficient set: parker2007 moved as little as possible towards Tables 2 and 3;
-           writes src/data/aero/xu2015.toml
+  xu2015   coefficient set: parker2007, changed as little as possible to approach Tables 2
+           and 3; writes src/data/aero/xu2015.toml
 
 Examples:
-  cargo ahv identify beam --check      fail if the committed numbers are not what comes out
+  cargo ahv identify beam --check      fail if the committed numbers are out of date
   cargo ahv identify xu2015            write the file; print trade-off, numbers and cells
-  cargo ahv identify xu2015 --check    fail if the committed file is not what comes out
-  cargo ahv identify xu2015 --json     the same for a program")]
+  cargo ahv identify xu2015 --check    fail if the committed file is out of date
+  cargo ahv identify xu2015 --json     print JSON")]
 pub struct Identify {
-    /// Which numbers
+    /// What to identify
     pub what: Identified,
-    /// Compare instead of writing; fail if they differ
+    /// Compare with the file instead of writing it; fail if they differ
     #[arg(long)]
     pub check: bool,
-    /// Print JSON, in SI units and radians
+    /// Print JSON in SI units and radians
     #[arg(long)]
     pub json: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub enum Identified {
-    #[value(help = "Stiffness of the beam, places and sizes of the tanks")]
+    #[value(help = "Stiffness of the beam, positions and sizes of the tanks")]
     Beam,
     #[value(help = "Coefficient set of eq. (4)")]
     Xu2015,
 }
 
-/// Fit the curves of eq. (4) to the first-principles model and write src/data/aero/shock_expansion.toml
+/// Fit the curves of eq. (4) to the first-principles model; write src/data/aero/shock_expansion.toml
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv fit            write the file; the errors of the fit are printed
-  cargo ahv fit --check    fail if the committed file is not what would be written
+  cargo ahv fit            write the file and print the errors of the fit
+  cargo ahv fit --check    fail if the committed file is out of date
 
 The numbers are part of the library: run `cargo ahv describe` after a change.")]
 pub struct Fit {
-    /// Compare instead of writing; fail if they differ
+    /// Compare with the file instead of writing it; fail if they differ
     #[arg(long)]
     pub check: bool,
 }
 
-/// Integration methods compared: right-hand sides against error, on the vehicle itself
+/// Compare integration methods on the vehicle: right-hand sides against error
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -103,18 +103,18 @@ pub struct Compare {
     pub set: Set,
 }
 
-/// Measure speed and size beside other integrators, Python and SciPy; write a table and a picture
+/// Measure speed and size against other integrators, Python and SciPy; write a table and a figure
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Output files: bench.json, precision.svg, precision.png. What is not installed is left out: valgrind,
+Output files: bench.json, precision.svg, precision.png. What is not installed is skipped: valgrind,
 libsundials-dev, the Python environment of `cargo ahv test`; PythonFMU is installed into target/bench.
 
 Examples:
   cargo ahv bench                       a few minutes
   cargo ahv bench --only precision,instructions
-  cargo ahv bench --quick               rough numbers, to see that everything runs")]
+  cargo ahv bench --quick               rough numbers, to check that everything runs")]
 pub struct Bench {
-    /// Only this part (may be repeated or separated by commas)
+    /// Only this part (repeatable, or separated by commas)
     #[arg(long, value_name = "PART", value_enum, value_delimiter = ',')]
     pub only: Vec<BenchPart>,
     /// Few repetitions, 100 flights and instances instead of 10,000
@@ -123,7 +123,7 @@ pub struct Bench {
     /// Directory for the results [default: target/bench]
     #[arg(long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Do this many times, for callgrind to count
+    /// Run this under callgrind, `calls` times
     #[arg(long, hide = true)]
     pub probe: Option<Probe>,
     #[arg(long, hide = true, default_value_t = 1)]
@@ -132,15 +132,15 @@ pub struct Bench {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum BenchPart {
-    /// Error against time, beside SUNDIALS and SciPy
+    /// Error against time, compared with SUNDIALS and SciPy
     Precision,
     /// Instructions of a right-hand side and of a step
     Instructions,
-    /// Steps in FMPy, beside steps that do nothing and a PythonFMU
+    /// Steps in FMPy, compared with empty steps and a PythonFMU
     Masters,
-    /// From loading the library to the first step; the modes beside SciPy
+    /// From loading the library to the first step; the modes compared with SciPy
     Start,
-    /// Library, instance, saved state
+    /// Size of library, instance and saved state
     Size,
     /// Many flights on all cores
     Ensemble,

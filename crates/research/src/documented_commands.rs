@@ -1,4 +1,4 @@
-//! Every command that a page or a help text gives is one that the tools take.
+//! Tests that the tools accept every command in the pages and help texts.
 
 use crate::cli::Cli;
 use ahv_tool::cli::{Cli as Tool, Command};
@@ -6,7 +6,7 @@ use ahv_tool::workspace::{MAX_TEXT_BYTES, read_text, root};
 use clap::Parser;
 use clap::error::ErrorKind;
 
-/// What follows `cargo ahv` on the lines of a text, up to one of the ends.
+/// The commands in a text: what follows `cargo ahv` on a line, up to one of the ends.
 fn commands<'a>(text: &'a str, ends: &[&str]) -> Vec<Vec<&'a str>> {
     let lines = text.lines().flat_map(|line| line.split("cargo ahv ").skip(1));
     lines
@@ -53,7 +53,7 @@ fn every_command_on_a_page_or_in_a_help_text_is_taken() {
     for (page, ends) in pages.chain(help) {
         let text = read_text(&root().join(page), MAX_TEXT_BYTES).unwrap();
         for command in commands(&text, ends) {
-            // The name for any of them.
+            // A placeholder.
             if command.get(1) == Some(&"COMMAND") {
                 continue;
             }

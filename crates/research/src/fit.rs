@@ -1,4 +1,4 @@
-//! Fits the curves of eq. (4) to the first-principles model and writes them as a coefficient set.
+//! `cargo ahv fit`: fits the curves of eq. (4) to the first-principles model and writes a coefficient set.
 
 mod regression;
 
@@ -23,20 +23,20 @@ use std::fmt::Write;
 
 /// alpha and delta_e in deg, phi.
 const GRID: [Axis; 3] = [(-2.0, 1.0, 8), (-20.0, 5.0, 9), (0.0, 0.1, 11)];
-/// Between the points of the grid.
+/// Held-out points, midway between those of the grid.
 const HELD_OUT: [Axis; 3] = [(-1.5, 1.0, 7), (-17.5, 5.0, 8), (0.05, 0.1, 10)];
-/// Mach numbers at which the fit is compared with the model, to show where it stops to hold.
+/// Other Mach numbers at which the fit is compared with the model.
 const ELSEWHERE: [f64; 4] = [7.0, 7.5, 8.5, 9.0];
 const SOURCE: &str = "regression of shock_expansion, see cargo ahv fit";
 
-/// The files that the fit is made from.
+/// Input data of the fit.
 struct Inputs {
     vehicle: VehicleData,
     earth: EarthData,
     published: AeroData,
 }
 
-/// Factors and how good they are.
+/// Coefficients and table of errors.
 struct Fitted {
     factors: [Vec<f64>; 4],
     rows: Vec<Vec<String>>,
@@ -55,9 +55,9 @@ pub fn run(options: &Fit) -> Result<()> {
         write(&file, &text)?;
     }
     out!("{}", table(&result.rows))?;
-    out!("\nStrips against panels, elastic terms\n{}", table(&compared))?;
+    out!("\nElastic terms: difference of strip theory from panels\n{}", table(&compared))?;
     if !options.check {
-        return outln!("{} is written", shown(&file));
+        return outln!("wrote {}", shown(&file));
     }
     if read_text(&file, MAX_DATA_BYTES)? != text {
         bail!(
@@ -128,8 +128,8 @@ fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
     line(key, &value, &origin.unit, &origin.source, status(origin.status))
 }
 
-/// The data file, and how good its elastic terms are. Incidence and elevator of the elastic derivatives
-/// are those of trimmed flight, which does not depend on them.
+/// The data file, and the errors of its elastic terms. The elastic derivatives are taken at incidence and
+/// elevator of the rigid trim, which does not depend on them.
 fn text(inputs: &Inputs, result: &Fitted) -> Result<(String, Vec<Vec<String>>)> {
     let first = with_fit(inputs, &file(inputs, result, [0.0; 2], &[])?)?;
     let options = options(&first, Configuration::Rigid);
@@ -157,7 +157,7 @@ fn options(data: &Data, configuration: Configuration) -> VehicleOptions {
     VehicleOptions { configuration, aero: AeroSet::ShockExpansion, ..Parameters::new(data).options }
 }
 
-/// The derived elastic terms against direct integration over panels.
+/// Compares the derived elastic terms with direct integration over panels.
 fn compare(data: &Data, attitude: &Attitude) -> Result<Vec<Vec<String>>> {
     let model = ShockExpansion::new(&data.vehicle, &data.earth);
     let mut rows: Vec<_> = COMPARED.iter().map(|name| vec![name.to_string()]).collect();
@@ -196,8 +196,8 @@ fn file(
     writeln!(
         text,
         "# Least squares at Mach {}, {} m: alpha {} deg, delta_e {} deg,\n\
-         # phi {:.0} to {:.0} in steps of {} as far as the burner is not choked. Held-out points lie midway.\n\
-         # The fit knows no choking: flights beyond the choking margin of the envelope are refused.\n#",
+         # phi {:.0} to {:.0} in steps of {} where the burner is not choked. Held-out points are midway.\n\
+         # The fit ignores choking: a flight ends where the choking margin of the envelope is exceeded.\n#",
         default.mach.value,
         default.altitude_m.value,
         degrees(alpha),
@@ -211,8 +211,8 @@ fn file(
     }
 
     text.push_str(
-        "#\n# Elastic terms are derived as for the published set: see aeroelastic.rs. Their difference from an\n\
-         # integration of the local incidence over panels, norm over the flexible modes:\n#\n",
+        "#\n# Elastic terms are derived by strip theory as for the published set: see src/air/strip_theory.rs. Their difference\n\
+         # from an integration of the local incidence over panels, norm over the flexible modes:\n#\n",
     );
     for line in table(compared).lines() {
         writeln!(text, "# {}", line.trim_end())?;

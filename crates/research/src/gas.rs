@@ -2,11 +2,11 @@
 //!
 //! Equation numbers are those of NACA Report 1135 (Ames Research Staff, "Equations, tables, and
 //! charts for compressible flow", 1953); heat addition follows Anderson, Modern Compressible Flow,
-//! 3rd ed., section 3.8. Angles in rad. What has no steady solution is an error, never a NaN.
+//! 3rd ed., section 3.8. Angles in rad. Without a steady solution the result is an error, never a NaN.
 
 use core::f64::consts::FRAC_PI_2;
 
-/// Ratio of specific heats: all that the relations need to know of the gas.
+/// A calorically perfect gas.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gas {
     /// Ratio of specific heats.
@@ -22,7 +22,7 @@ pub enum GasError {
         /// Mach number of the stream.
         mach: f64,
     },
-    /// No attached shock turns the stream so far.
+    /// No attached shock turns the stream by this angle.
     #[error("the shock is detached: Mach {mach} turns by {limit} rad at most, not by {turn} rad")]
     Detached {
         /// Mach number ahead of the shock.
@@ -61,7 +61,7 @@ pub enum GasError {
     },
 }
 
-/// What a shock does to a stream: ratios of behind to ahead.
+/// Ratios across a shock, behind to ahead.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jump {
     /// Pressure.
@@ -81,14 +81,14 @@ pub struct Jump {
 pub struct ObliqueShock {
     /// Angle between the shock and the stream ahead, rad.
     pub angle: f64,
-    /// What it does.
+    /// Ratios across it.
     pub jump: Jump,
 }
 
-/// Bisection alone needs 53 halvings of the bracket to reach the last bit.
+/// Iteration limit; bisection alone needs 53 steps for all bits.
 const MAX_STEPS: usize = 80;
 
-/// Root of an increasing function in a bracket: Newton, with bisection where it would leave.
+/// Root of an increasing function in a bracket, by Newton's method with bisection outside the bracket.
 ///
 /// `f` gives value and slope.
 fn root([mut low, mut high]: [f64; 2], guess: f64, f: impl Fn(f64) -> (f64, f64)) -> f64 {
@@ -145,8 +145,8 @@ impl Gas {
         if !(ratio >= 1.0 && ratio.is_finite()) {
             return Err(GasError::Choked { ratio });
         }
-        // Dropping the 1 in the total temperature bounds M from above; the logarithm makes Newton
-        // quick.
+        // Without the 1 in the total temperature M is bounded from above; Newton's method converges fast on
+        // the logarithm.
         let at_throat = 0.5 * (self.gamma + 1.0);
         let target = libm::log(ratio);
         let exponent = at_throat / (self.gamma - 1.0);
@@ -191,7 +191,7 @@ impl Gas {
         (libm::atan2(above, below), slope)
     }
 
-    /// Angle of the shock that turns the stream most, and how far it turns, eq. (168), rad.
+    /// Angle of the shock with the largest turning angle, and that angle, eq. (168), rad.
     pub fn largest_turn(&self, mach: f64) -> (f64, f64) {
         let (g, square) = (self.gamma, mach * mach);
         let inner =
@@ -212,7 +212,7 @@ impl Gas {
             return Err(GasError::Detached { mach, turn, limit });
         }
         let wave = libm::asin(1.0 / mach);
-        // Where a shock of small turn lies in a fast stream.
+        // Shock angle for a small turn in a fast stream.
         let guess = wave + 0.25 * (self.gamma + 1.0) * turn;
         let angle = root([wave, steepest], guess, |angle| {
             let (value, slope) = self.turn(mach, angle);
@@ -265,8 +265,8 @@ impl Gas {
         (1.0 + self.gamma) / (1.0 + self.gamma * mach * mach)
     }
 
-    /// Mach number of a supersonic stream after its stagnation temperature has risen `ratio` times
-    /// in a duct of constant area without friction.
+    /// Mach number of a supersonic stream after its stagnation temperature has risen by the factor `ratio`
+    /// in a frictionless duct of constant area.
     ///
     /// Solved for M^2, eq. (3.89) of Anderson gives M^2 = (1 + s)/(1 - gamma s) with
     /// s^2 = 1 - T0/T0*; the subsonic branch is s < 0.

@@ -1,4 +1,4 @@
-//! Identification: numbers that are not published, from results that are.
+//! `cargo ahv identify`: identifies unpublished numbers from published results.
 
 mod beam;
 mod body_cache;
@@ -29,7 +29,7 @@ pub fn run(options: &Identify) -> Result<()> {
 const VEHICLE: &str = "src/data/vehicle.toml";
 const XU2015: &str = "src/data/aero/xu2015.toml";
 
-/// The data as the files have them now: each identification rests on what the other one wrote.
+/// The data files as they are now: each identification uses the result of the other.
 fn data() -> Result<Data> {
     Ok(Data {
         vehicle: VehicleData::parse(
@@ -54,7 +54,7 @@ fn beam(options: &Identify) -> Result<()> {
     let report = beam::Report::new(&model, &solution)?;
     let text = beam::file(&before, &solution.vehicle, &report.known())?;
     VehicleData::parse("vehicle.toml", &text)?;
-    let settled = settle(options, "beam", VEHICLE, &text);
+    let settled = write_or_compare(options, "beam", VEHICLE, &text);
     if options.json {
         outln!("{}", serde_json::to_string_pretty(&report)?)?;
     } else if !options.check {
@@ -67,7 +67,7 @@ fn xu2015(options: &Identify) -> Result<()> {
     let model = l_curve::Model::new(data()?)?;
     let chosen = model.chosen()?;
     let text = model.origin.file(&chosen.fit.point)?;
-    let settled = settle(options, "xu2015", XU2015, &text);
+    let settled = write_or_compare(options, "xu2015", XU2015, &text);
     if options.json || !options.check {
         let (path, knee) = model.path(&|_| ())?;
         let best = model.best(&chosen)?;
@@ -81,8 +81,8 @@ fn xu2015(options: &Identify) -> Result<()> {
     settled
 }
 
-/// Writes a file of the repository, or compares it with what would be written.
-fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
+/// Writes a file of the repository, or compares it with the result.
+fn write_or_compare(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> {
     let file = root().join(name);
     let tell = |done: &str| errln!("{} {done}", shown(&file));
     if !options.check {
@@ -92,13 +92,13 @@ fn settle(options: &Identify, what: &str, name: &str, text: &str) -> Result<()> 
     }
     let found = read_text(&file, MAX_DATA_BYTES)?;
     if found == text {
-        tell("is what comes out");
+        tell("is up to date");
         return Ok(());
     }
     let line = found.lines().zip(text.lines()).take_while(|(a, b)| a == b).count();
     let at = |text: &str| text.lines().nth(line).unwrap_or("(end of file)").to_string();
     bail!(
-        "{}, line {}: not what comes out; run `cargo ahv identify {what}` and commit the result\n  \
+        "{}, line {}: out of date; run `cargo ahv identify {what}` and commit the result\n  \
          found:    {}\n  expected: {}",
         shown(&file),
         line + 1,

@@ -1,20 +1,20 @@
-//! What makes the numbers of ahv and what they are measured against; nothing that flies needs it.
-//! `cargo ahv` compiles it when one of its commands is first called.
+//! Derives the numbers of ahv and compares them with the paper and with other programs; not needed to fly.
+//! `cargo ahv` compiles it at the first command that needs it.
 //!
-//! | module | command | what it makes | from |
+//! | module | command | result | source |
 //! |---|---|---|---|
 //! | [`gas`] | | shocks, expansions, heat addition, ducts | NACA Report 1135 |
 //! | [`shock_expansion`] | | air and engine from first principles | Bolender and Doman 2007 |
 //! | `fit` | `cargo ahv fit` | `src/data/aero/shock_expansion.toml`, the curves of eq. (4) | [`shock_expansion`] |
 //! | `identify` | `cargo ahv identify beam` | stiffness and tanks in `src/data/vehicle.toml` | Tables 1 and 2 |
 //! | `identify` | `cargo ahv identify xu2015` | `src/data/aero/xu2015.toml` | Tables 2 and 3 |
-//! | `published` | | what the paper prints, checked | `src/data/published.toml` |
-//! | `reproduce` | `cargo ahv reproduce` | report: tables, claims and figures of the paper beside ours | `published` |
-//! | `methods` | `cargo ahv methods` | integration methods compared: right-hand sides against error | |
-//! | `bench` | `cargo ahv bench` | speed and size beside other integrators, Python and SciPy | |
+//! | `published` | | the printed tables of the paper | `src/data/published.toml` |
+//! | `reproduce` | `cargo ahv reproduce` | report: tables, claims and figures of the paper compared with ours | `published` |
+//! | `methods` | `cargo ahv methods` | comparison of integration methods: right-hand sides against error | |
+//! | `bench` | `cargo ahv bench` | speed and size against other integrators, Python and SciPy | |
 //!
-//! The committed numbers must be what the commands write: `fit --check`, `identify beam --check`,
-//! `identify xu2015 --check`, run by `tests/committed.rs`. The number of a command is part of the
+//! The committed numbers must be those that the commands write: `tests/committed.rs` runs `fit --check`,
+//! `identify beam --check` and `identify xu2015 --check`. These numbers are part of the
 //! library: run `cargo ahv describe` after a change.
 
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
@@ -40,7 +40,7 @@ use clap::Parser;
 use cli::{Cli, Command};
 use std::process::ExitCode;
 
-/// Runs the command that was typed.
+/// Runs the command of the command line.
 pub fn main() -> ExitCode {
     console::exit_code(Cli::try_parse().map(|Cli { command }| run(&command)))
 }

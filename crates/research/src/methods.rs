@@ -1,4 +1,4 @@
-//! Work against precision: what a method costs, in right-hand sides, for the error it makes.
+//! `cargo ahv methods`: evaluations of the right-hand side against error, for several integration methods.
 
 mod tableaus;
 
@@ -15,20 +15,20 @@ use anyhow::Result;
 use std::cell::Cell;
 use std::convert::Infallible;
 
-/// Elevator against its trim value, rad, over the quarters of the flight.
+/// Elevator relative to trim in the quarters of the flight, rad.
 pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
 /// Feedback of incidence (rad per rad) and pitch rate (s) to the elevator that stabilises the short
 /// period.
 pub const FEEDBACK: [f64; 2] = [9.0, 2.0];
-/// Length of the flight, s: the unstable vehicle keeps few digits for longer.
+/// Length of the flight, s; the unstable vehicle amplifies errors in longer flights.
 pub const FLIGHT_S: f64 = 1.0;
-/// Of incidence, pitch rate and modes at the start of the second flight, in typical sizes.
+/// Initial disturbance of incidence, pitch rate and modes in the second flight, in nominal values.
 const DISTURBANCE: f64 = 3.0;
 const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Of the flight that counts as exact; flown with another method than the vehicle's own.
+/// Tolerance of the reference flight, which uses another method than the vehicle.
 pub const EXACT: f64 = 1e-14;
 
-/// What moves the elevator.
+/// Control law of the elevator.
 #[derive(Debug, Clone, Copy)]
 pub struct Law {
     /// Incidence in trim, rad.
@@ -40,20 +40,19 @@ impl Law {
     /// The doublet alone.
     pub const OPEN: Self = Self { alpha: 0.0, feedback: [0.0; 2] };
 
-    /// The doublet, and feedback against a trim.
+    /// The doublet with feedback of the deviation from trim.
     pub fn closed(trim: &Trim) -> Self {
         Self { alpha: trim.state[ALPHA], feedback: FEEDBACK }
     }
 
-    /// Elevator against its trim value, rad, in one of the equal communication steps that starts at a
-    /// state.
+    /// Elevator relative to trim, rad, in a communication step that starts at state `x`.
     pub fn elevator(&self, step: usize, steps: usize, x: &State) -> f64 {
         let [per_alpha, per_q] = self.feedback;
         DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[ALPHA] - self.alpha) + per_q * x[Q]
     }
 }
 
-/// The vehicle in one communication step; counts its right-hand sides.
+/// The vehicle in one communication step, with a count of right-hand sides.
 pub struct Counted<'a> {
     pub vehicle: &'a Vehicle,
     pub control: Control,
@@ -89,8 +88,7 @@ impl<'a> Problem<'a> {
         Self { vehicle, start: trim.state, control: trim.control, steps, law }
     }
 
-    /// Final state and right-hand sides, if `step` moves the state through the interval (s) of one
-    /// communication step.
+    /// Final state and right-hand sides, where `step` integrates the interval (s) of one communication step.
     pub fn each<E>(
         &self,
         mut step: impl FnMut(&Counted, [f64; 2], &mut State) -> Result<(), E>,
@@ -128,12 +126,12 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Largest error of a state over its nominal value plus its size.
+/// Largest error of a state over the sum of nominal value and magnitude.
 pub fn error(x: &State, exact: &State) -> f64 {
     (0..STATES).map(|i| (x[i] - exact[i]).abs() / (NOMINAL[i] + exact[i].abs())).fold(0.0, f64::max)
 }
 
-/// Far from trim: in incidence, pitch rate and modes.
+/// A start far from trim in incidence, pitch rate and modes.
 fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
     let mut state = trim.state;
     for i in ALPHA..vehicle.states() {
@@ -147,8 +145,10 @@ pub fn run(options: &Compare) -> Result<()> {
     let flight = flight(&model()?, &options.set)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let mut exponential = method(vehicle, trim);
-    outln!("Elevator doublet, {FLIGHT_S} s: right-hand sides, and the largest error of a state")?;
-    outln!("over its nominal value plus its size\n")?;
+    outln!(
+        "Elevator doublet, {FLIGHT_S} s: evaluations of the right-hand side, and the largest error of a"
+    )?;
+    outln!("state over the sum of its nominal value and magnitude\n")?;
     for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
         for steps in [100, 4] {
             let problem = Problem::new(vehicle, &from, steps, Law::OPEN);

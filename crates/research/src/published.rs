@@ -1,4 +1,4 @@
-//! What the paper prints, read and checked: a wrong number is refused with file, key and limit.
+//! Reads and checks the printed tables; a wrong number is refused with file, key and limit.
 
 use ahv::error::Error;
 use ahv::structure::FLEXIBLE;
@@ -86,7 +86,7 @@ impl Check<'_> {
         self.that(ok, key, || format!("{value} rad/s must be negative"))
     }
 
-    /// A number that errors are relative to.
+    /// A number with a relative error: finite and not zero.
     fn finite(&self, key: &str, value: f64) -> Result<(), Error> {
         let ok = value != 0.0 && value.is_finite();
         self.that(ok, key, || format!("{value} rad/s must be finite and not 0"))
@@ -119,7 +119,7 @@ impl Published {
     pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
         let all: Self = toml::from_str(text).map_err(|error| {
             let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
-            // The table stands in the line, and a missing cell has no line of its own.
+            // A missing cell is reported at the line of its table.
             let line = before.matches('\n').count();
             let source = text.lines().nth(line).unwrap_or("").trim();
             Error::Data {

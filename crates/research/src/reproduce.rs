@@ -1,4 +1,4 @@
-//! `cargo ahv reproduce`: every table, claim and computed figure of the paper beside ours, with a verdict.
+//! `cargo ahv reproduce`: compares every table, claim and computed figure of the paper with ours.
 
 mod claims;
 mod claims_page;
@@ -29,7 +29,7 @@ use ahv_tool::workspace::{can_write, shown, target, write_together};
 use anyhow::Result;
 use clap::ValueEnum;
 
-/// What a report can be made of.
+/// Parts of the report.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Part {
     /// Natural frequencies
@@ -42,23 +42,23 @@ pub enum Part {
     Fig3,
     /// Mode shapes
     Fig5,
-    /// Poles and zeros while fuel is burnt
+    /// Poles and zeros over fuel
     Fig6,
-    /// The same over slosh damping
+    /// Poles and zeros over slosh damping
     Fig7,
-    /// The same over slosh frequency
+    /// Poles and zeros over slosh frequency
     Fig8,
-    /// What the paper concludes
+    /// Conclusions of the paper from figs 6 to 8
     Claims,
-    /// Slosh, beam and short period together
+    /// Interaction of slosh, beam and short period
     Interaction,
-    /// Which numbers xu2015 moved, and what more would have cost
+    /// Trade-off in the identification of xu2015
     Tradeoff,
-    /// Where the printed digits come from
+    /// Origin of the printed digits
     Origin,
-    /// Errors of the fit behind shock_expansion
+    /// Errors of the fit shock_expansion
     Fit,
-    /// What is wrong in the paper
+    /// Errata of the paper
     Errata,
 }
 
@@ -77,7 +77,7 @@ pub fn run(options: &cli::Reproduce) -> Result<()> {
 
     let markdown = markdown::render(&report);
     let svg = |link: &str| String::from_utf8(files.get(&directory.join(link))?.clone()).ok();
-    let html = html::render(&markdown, "The paper's results beside ours", svg);
+    let html = html::render(&markdown, "The paper's results compared with ours", svg);
     for (name, content) in [
         ("report.html", html),
         ("report.md", markdown),

@@ -1,13 +1,13 @@
-//! First-principles air and engine: where the curve fits of eq. (4) come from.
+//! First-principles model of air and engine, from which curve fits like eq. (4) are made.
 //!
 //! The two-dimensional vehicle of Bolender and Doman (J. Spacecraft and Rockets 44(2), 2007): a
-//! shock or an expansion at the nose, above and below; an inlet whose lip captures what the bow
-//! shock leaves of the stream; an engine; an aft-body that is half of a nozzle, with the plume as
+//! shock or an expansion at the nose, above and below; an inlet whose lip captures the stream
+//! behind the bow shock; an engine; an aft-body that is half of a nozzle, with the plume as
 //! its other half; a flat plate as elevator. Inviscid, per metre of width.
 //!
-//! The book-keeping is that of a control volume: pressures over the outer surfaces, less that of
-//! the free stream, and the flow of momentum through inlet and exit. A part of this is called
-//! thrust; whatever is not, is lift, drag and moment, so nothing is lost or counted twice.
+//! Forces are those on a control volume: pressures on the outer surfaces, minus that of
+//! the free stream, and momentum fluxes through inlet and exit. One part is defined as thrust, the rest
+//! is lift, drag and moment, so that every force is counted once.
 //!
 //! Bending changes the local incidence (see [`ahv::air::strip_theory`]): the stream turns at the nose
 //! through a shock, then follows the wall without losses (the shock-expansion method: Eggers,
@@ -24,7 +24,7 @@ use engine::Engine;
 use stream::{Medium, Stream};
 use surface::{Force, Wall};
 
-/// Everything the air does to the vehicle.
+/// Aerodynamic loads on the vehicle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AirLoads {
     /// Incidence of the free stream, rad.
@@ -80,7 +80,7 @@ pub struct Attitude {
     pub phi: f64,
 }
 
-/// The vehicle as the air sees it.
+/// Geometry, air and engine of the vehicle.
 #[derive(Debug, Clone, Copy)]
 pub struct ShockExpansion {
     /// The air.
@@ -97,11 +97,11 @@ pub struct ShockExpansion {
     elevator: [f64; 3],
 }
 
-/// What the lip takes in.
+/// Air captured by the lip.
 struct Capture {
     /// kg/(s m).
     mass_flow: f64,
-    /// The bow shock passes ahead of the lip: part of the shock layer goes below the nacelle.
+    /// Whether the bow shock passes ahead of the lip, so that part of the shock layer spills below the nacelle.
     spills: bool,
 }
 
@@ -175,7 +175,7 @@ impl ShockExpansion {
         let behind = self.fore_body + self.nacelle;
         let base = Wall { from: [self.fore_body, lip], to: [behind, lip], side: 1.0 };
         if capture.spills {
-            // The shock layer comes down along the fore-body and bends back around the lip.
+            // The shock layer follows the fore-body down and turns back around the lip.
             let angle = |x| incidence(x) - incidence(self.fore_body) - self.lower_angle;
             base.washed(medium, &inflow, ambient, angle, &mut forces)?;
         } else {
@@ -185,8 +185,8 @@ impl ShockExpansion {
         let mass_flow = capture.mass_flow;
         let exhaust = self.engine.exhaust(medium, &inflow, self.lower_angle, mass_flow, phi)?;
         let aft_body = Wall { from: [behind, shoulder[1]], to: tail, side: 1.0 };
-        // Chavez and Schmidt 1994, J. Guidance, Control, and Dynamics 17(6): the plume's edge makes
-        // the pressure fall like this along the aft-body.
+        // Chavez and Schmidt 1994, J. Guidance, Control, and Dynamics 17(6): this pressure law follows
+        // from the edge of the plume along the aft-body.
         let excess = exhaust.pressure / ambient - 1.0;
         let plume = aft_body.pressed(|place| exhaust.pressure / (1.0 + place * excess) - ambient);
         let first = forces.len();
@@ -209,8 +209,8 @@ impl ShockExpansion {
         Ok(AirLoads { alpha, thrust: gross - ram - pull, forces, mass_flow, exhaust })
     }
 
-    /// A lip below the bow shock takes in the free stream from the nose down to itself; one in the
-    /// shock layer takes in what passes between itself and the fore-body. On the shock both agree.
+    /// A lip below the bow shock captures the free stream between the heights of nose and lip; one in the
+    /// shock layer captures the flow between fore-body and lip. On the shock both agree.
     fn capture(&self, ahead: &Stream, inflow: &Stream, alpha: f64) -> Capture {
         let (sin, cos) = libm::sincos(alpha);
         let depth = self.engine.height - self.shoulder_height();

@@ -1,4 +1,4 @@
-//! The committed numbers are what comes out of the commands that make them.
+//! The committed numbers are those that the commands write.
 
 use std::process::Command;
 
@@ -18,7 +18,7 @@ fn ahv(arguments: &[&str]) -> Outcome {
 fn committed_stiffness_and_tanks_are_what_the_identification_finds() {
     let check = ahv(&["identify", "beam", "--check", "--json"]);
     assert!(check.ok, "{}", check.err);
-    assert!(check.err.contains("src/data/vehicle.toml is what comes out"), "{}", check.err);
+    assert!(check.err.contains("src/data/vehicle.toml is up to date"), "{}", check.err);
     let json: serde_json::Value = serde_json::from_str(&check.out).unwrap();
     let data = json["data"].as_array().unwrap();
     assert_eq!(data.len(), 7);
@@ -40,7 +40,7 @@ fn committed_stiffness_and_tanks_are_what_the_identification_finds() {
 fn committed_coefficients_are_what_the_identification_finds() {
     let check = ahv(&["identify", "xu2015", "--check"]);
     assert!(check.ok, "{}", check.err);
-    assert!(check.err.contains("src/data/aero/xu2015.toml is what comes out"), "{}", check.err);
+    assert!(check.err.contains("src/data/aero/xu2015.toml is up to date"), "{}", check.err);
 }
 
 #[test]

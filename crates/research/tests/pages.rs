@@ -1,20 +1,20 @@
-//! The pages that are read in a browser: the report, and the documentation inside the FMU. They hold on a
-//! telephone 400 px wide, as far as that shows without a browser.
+//! The HTML pages, report and documentation of the FMU, are readable on a phone 400 px wide, as far as this can be
+//! tested without a browser.
 
 use std::fs;
 use std::process::Command;
 use std::sync::LazyLock;
 use tempfile::TempDir;
 
-/// Widest telephone that is meant, and the least text on it, px.
+/// Width of the screen and smallest legible text, px.
 const SCREEN: f64 = 400.0;
 const LEGIBLE: f64 = 12.0;
-/// Least contrast of text with the page (WCAG 2.2, AA).
+/// Minimum contrast of text with the page (WCAG 2.2, AA).
 const CONTRAST: f64 = 4.5;
-/// Pixels of one rem or em, as browsers start.
+/// Pixels of one rem or em, the default of browsers.
 const REM: f64 = 16.0;
 
-/// Every kind of figure but that of the trade-off, which takes long; it draws on the same axes.
+/// All kinds of figures except the trade-off, which takes long and has the same axes.
 static REPORT: LazyLock<String> = LazyLock::new(|| {
     let directory = TempDir::new().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_ahv-research"))
@@ -34,7 +34,7 @@ fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {
     Some(text.split_once(from)?.1.split_once(to)?.0)
 }
 
-/// Selector, property and value of every declaration; those of narrow screens and print too.
+/// Selector, property and value of every declaration, including those for narrow screens and print.
 fn style(page: &str) -> Vec<(&str, &str, &str)> {
     let style = between(page, "<style>", "</style>").unwrap();
     let rules = style.split('}').filter_map(|rule| rule.rsplit_once('{'));
@@ -49,7 +49,7 @@ fn style(page: &str) -> Vec<(&str, &str, &str)> {
         .collect()
 }
 
-/// A length in pixels; none if it depends on the screen.
+/// A length in pixels; `None` if it depends on the screen.
 fn pixels(value: &str) -> Option<f64> {
     let units = [("rem", REM), ("em", REM), ("px", 1.0)];
     units
@@ -77,7 +77,7 @@ fn luminance(colour: &str) -> Option<f64> {
 }
 
 #[test]
-fn pages_fit_a_narrow_screen_and_what_is_wider_scrolls_by_itself() {
+fn pages_fit_a_narrow_screen_and_wider_content_scrolls_by_itself() {
     for page in [REPORT.as_str(), &documentation()] {
         assert!(page.contains("name=\"viewport\" content=\"width=device-width, initial-scale=1\""));
         let style = style(page);
@@ -123,7 +123,7 @@ fn text_inside_figures_is_legible_on_a_narrow_screen() {
 }
 
 #[test]
-fn text_of_the_pages_stands_out_from_white() {
+fn text_of_the_pages_has_enough_contrast() {
     for page in [REPORT.as_str(), &documentation()] {
         let style = style(page);
         let colours: Vec<_> = style

@@ -1,4 +1,4 @@
-//! The report from outside, as a user asks for it.
+//! The report of `cargo ahv reproduce`, run as a user runs it.
 
 use serde_json::Value;
 use std::fs;
@@ -25,7 +25,7 @@ fn report(arguments: &[&str]) -> (TempDir, Value) {
     (directory, serde_json::from_str(&text).unwrap())
 }
 
-/// The claims alone, drawn up once for all tests.
+/// The report of the claims, made once for all tests.
 fn claims() -> &'static (TempDir, Value) {
     static CLAIMS: LazyLock<(TempDir, Value)> = LazyLock::new(|| report(&["--only", "claims"]));
     &CLAIMS
@@ -82,7 +82,7 @@ fn what_is_called_reproduced_holds_the_aim_of_its_kind() {
     assert!(markdown.contains("A number is reproduced within the limit of its kind"));
 }
 
-/// What the default set answers. (b): the pole moves by far more than slightly. (e): the real zero moves
+/// Verdicts of the default set. (b): the pole moves by far more than slightly. (e): the real zero moves
 /// the other way, by a hundredth; the complex ones move as claimed. (h): by more than hardly.
 const ANSWERS: [(&str, &str); 10] = [
     ("a", "reproduced"),
@@ -142,7 +142,7 @@ fn sizes(text: &str) -> Vec<(f64, usize)> {
 
 #[test]
 fn the_readme_has_the_numbers_of_the_report() {
-    /// Below this, rad/s, stand slow modes that the tables give in powers of ten.
+    /// Slow modes below this, rad/s, are given in powers of ten.
     const SLOW: f64 = 0.1;
     let (_directory, json) = report(&["--only", "table1,table2,table3"]);
     let readme = include_str!("../../../README.md");
@@ -256,7 +256,7 @@ fn only_what_was_asked_for_is_made() {
     assert!(json.get("table1").is_none() && json.get("errata").is_none());
 }
 
-/// What stays published where one inertia and the stations are free.
+/// Numbers that the best fit with free stations may change.
 const FREE: [&str; 5] =
     ["elastic_scale", "i_yy", "mass_centre_shift", "gamma_offset", "structural_damping"];
 

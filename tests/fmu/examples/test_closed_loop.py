@@ -20,7 +20,7 @@ from masters import NAMES, MasterFailed, fly_libcosim
 from system import BadSystem, build, validate
 
 EXAMPLE = Path(design.__file__).parent
-# Of a gain, to either side of its margin: what interpolation between the frequencies costs.
+# Relative change of a gain to both sides of its margin; covers interpolation in frequency.
 BESIDE = 0.02
 # Short flight: the climb begins at 5 s.
 STOP_S = 8.0
@@ -101,7 +101,7 @@ def test_a_law_that_commands_no_number_ends_its_flight_with_the_reason(
     bad = replace(law, Ki=np.full_like(law.Ki, np.nan))
     flown = flight.fly(str(package.folder), bad, np.zeros((100, 2)))
     assert "delta_e" in flown.ended and "NaN is refused" in flown.ended
-    # The command for the second step; the first one is flown and kept.
+    # The command for the second step; the first step is flown and its row kept.
     assert len(flown.rows) == 1 and np.isfinite(flown.rows[:, :4]).all()
 
 

@@ -12,8 +12,8 @@ import cruise
 import design
 from harness import Package
 
-# How far the flight may be from the trim of the fuel that is left, rad, rad and 1: the integrators
-# lag behind a trim that begins to move, the fuel ratio for the first half minute.
+# Largest difference from the trim with the remaining fuel, rad, rad and 1: the integrators lag when
+# the trim starts to change, the fuel ratio for the first half minute.
 LAG = {"alpha": 0.003 * design.DEG, "delta_e_effective": 0.006 * design.DEG, "phi_effective": 1e-3}
 
 

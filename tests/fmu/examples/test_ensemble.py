@@ -30,7 +30,7 @@ from parts import AnotherEnsemble, Parts, claim
 SCRIPT = Path(ensemble.__file__)
 FLIGHTS, STOP_S = 100, 4.0
 OPTIONS = ("--flights", str(FLIGHTS), "--stop", str(STOP_S))
-# A worker comes back, and flies what is left, within this time.
+# Time within which a worker restarts and flies the rest.
 PATIENCE_S = 240.0
 
 
@@ -74,7 +74,7 @@ def flown(
         Client(cluster) as client,
         subprocess.Popen(line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as flying,
     ):
-        # All that takes time comes before: between look and kill a worker must not finish.
+        # Slow work comes first: a worker must not finish between the check and the kill.
         processes = client.run(os.getpid)
         end, busy = time.monotonic() + PATIENCE_S, []
         while not (busy and list(output.glob("flights/part-*.parquet"))):
@@ -104,7 +104,7 @@ def test_a_flight_is_the_same_on_any_worker(package: Package, flown: Path) -> No
     commands = wanted(manoeuvre, STOP_S, design.PERIOD_S)
     picked = ensemble.sample(FLIGHTS, 1)[::50]
     here = fly_all(Task(package.path.read_bytes(), law, commands, picked))
-    # Worker and this process may order sums differently; an unstable loop makes more of it.
+    # Worker and this process may round differently, which an unstable loop amplifies.
     for mine, theirs in zip(here, rows(flown)[::50], strict=True):
         assert np.allclose(mine["gamma_rad"], theirs["gamma_rad"], rtol=0.0, atol=1e-9)
         assert mine["growth_per_s"] == pytest.approx(theirs["growth_per_s"], abs=1e-6)
@@ -134,7 +134,7 @@ def test_running_again_flies_only_what_is_missing(
 def test_two_ensembles_are_not_mixed(package: Package, flown: Path, tmp_path: Path) -> None:
     other = run(package, flown, "--seed", "2")
     assert other.returncode == 1 and "holds another ensemble; differing: seed" in other.stderr
-    # Another FMU, by a byte that says nothing.
+    # Another FMU, by an irrelevant byte.
     fmu = tmp_path / "ahv.fmu"
     shutil.copy(package.path, fmu)
     with zipfile.ZipFile(fmu, "a") as archive:
@@ -238,7 +238,7 @@ def test_a_vehicle_that_cannot_be_trimmed_is_a_row_with_the_reason(package: Pack
     row, good = fly_all(Task(package.path.read_bytes(), law, np.zeros((100, 2)), [weak, vehicle]))
     assert not row["trimmed"] and "delta_e" in row["ended"] and row["flown_s"] == 0.0
     assert good["trimmed"] and good["ended"] == "" and good["flown_s"] == pytest.approx(1.0)
-    # The columns of a table do not depend on which vehicle comes first, and nobody is lost.
+    # The columns of a table do not depend on the first vehicle, and no vehicle is lost.
     table = pa.Table.from_pylist([row, good], ensemble.SCHEMA)
     assert set(row) == set(good) == set(table.column_names)
     assert pa.Table.from_pylist([row], ensemble.SCHEMA).schema == table.schema

@@ -43,7 +43,7 @@ def test_turbulence_has_that_spectrum_too() -> None:
     hertz, found = welch(w, 1.0 / PERIOD_S, nperseg=4096)
     band = (hertz > 0.2) & (hertz < 10.0)
     wanted = 2.0 * np.pi * spectrum(2.0 * np.pi * hertz[band])
-    # 256 averaged windows leave 6 % in each bin, nearly nothing in the mean of 400.
+    # Averaging 256 windows leaves an error of 6 % per bin, hardly any in the mean of 400.
     assert np.mean(found[band] / wanted) == pytest.approx(1.0, abs=0.03)
 
 
@@ -62,7 +62,7 @@ def test_a_short_gust_loads_the_vehicle_as_its_lift_slope_says(package: Package)
     w = gusts.vertical(air.gust(1.0, 107.0, law.level[0], 30, law.period_s, 0.0))
     met = gusts.away(folder, gusts.meet(folder, law, w), w)
     load = met[:, gusts.COLUMNS.index("n_z_g")].max()
-    # The peak falls between two points, and the nose has begun to rise.
+    # The peak is between two points, and the vehicle has started to pitch up.
     assert load == pytest.approx(slope / law.level[0], rel=0.04)
 
 
@@ -90,7 +90,7 @@ def test_air_that_rises_for_long_only_turns_the_vehicle_into_its_wind(package: P
     flight = gusts.meet(folder, law, w)
     assert not flight.ended
     met = dict(zip(gusts.COLUMNS, gusts.away(folder, flight, w)[-1], strict=True))
-    # What the speed, still on its way back, and the change of height leave.
+    # Remainder from the speed, not yet settled, and the change of height.
     assert abs(met["incidence_deg"]) < 2e-3 and abs(met["n_z_g"]) < 1e-3
     turned = flight.rows[-1, 4] - flight.rows[0, 4]
     assert turned == pytest.approx(-gusts.PEAK_M_PER_S / law.level[0], rel=0.02)
@@ -105,7 +105,7 @@ def test_the_loop_holds_where_the_vehicle_alone_is_lost(package: Package) -> Non
     assert not held.ended and len(held.rows) == 1000
     assert "alpha" in free.ended and free.rows[-1, 0] < 5.0
     load = gusts.away(folder, held, w)[:, gusts.COLUMNS.index("n_z_g")]
-    # Five standard deviations of what the example's README says.
+    # Within five standard deviations of the values in the example's README.
     assert np.abs(load).max() < 5 * 0.0241
 
 

@@ -1,4 +1,4 @@
-"""The notebook of the examples: it runs, and what a reader sees in it is what this FMU gives.
+"""The notebook of the examples runs, and its stored output is that of this FMU.
 
 `python tests/fmu/examples/test_notebook.py` runs it and keeps the new outputs.
 """
@@ -18,7 +18,7 @@ from harness import Package
 NOTEBOOK = Path(__file__).parents[3] / "examples/from_fmu_to_closed_loop.ipynb"
 PATIENCE_S = 300
 NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?")
-# Of a printed number: half a unit of the last of two decimals, and margins between grid points.
+# Tolerance of printed numbers: half of the second decimal, and margins between grid points.
 RELATIVE, ABSOLUTE = 0.02, 0.011
 
 

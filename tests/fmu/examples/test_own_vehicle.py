@@ -16,9 +16,9 @@ from fmpy.fmi1 import FMICallException
 from harness import CONFIGURATIONS, DERIVATIVES, ERROR, Package, ahv
 from oracle import DATA_DIR, Vehicle
 
-# Both solve the same equations to rounding; the conditioning costs a few digits.
+# Both solve the same equations up to rounding, amplified by the conditioning.
 EQUAL = 1e-9
-# Rates at rest: rounding of terms of about 1e3 m/s^2.
+# Rates in equilibrium: rounding of terms of about 1e3 m/s^2.
 RATE_AT_REST = 1e-9
 STIFFNESS = re.compile(r"(?<=stiffness_n_m2_per_m = \{ value = \[)[^]]*")
 

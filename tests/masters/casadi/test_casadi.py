@@ -1,4 +1,4 @@
-"""CasADi as a master: its DaeBuilder sets states by fmi2SetReal, and its CVODES flies the vehicle.
+"""CasADi as a master: DaeBuilder sets states by fmi2SetReal, and CVODES integrates the vehicle.
 
 What it computes is held against the same FMU in FMPy.
 """
@@ -13,11 +13,10 @@ from fmpy.fmi2 import FMU2Model
 
 from harness import CONFIGURATIONS, Package
 
-# Of CVODES per step, over the size of a state and for the smallest states; what it comes to after a
-# flight.
+# Tolerances of CVODES per step, relative and absolute; resulting error after a flight.
 TOLERANCE, SMALLEST, AGREEMENT = 1e-9, 1e-3, 1e-6
 ELEVATOR = 0.003
-# Off the trim, so that nothing is zero: share of each nominal value, and inputs.
+# Deviation from trim, so that nothing is zero: share of each nominal value, and inputs.
 DISTURBANCE, INPUTS = 0.1, (0.003, 0.01, 5.0, -3.0)
 
 

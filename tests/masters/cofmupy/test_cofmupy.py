@@ -17,7 +17,7 @@ def names(package: Package) -> list[str]:
 
 def fly(package: Package, flight: Flight) -> np.ndarray:
     """Values of the outputs after each step."""
-    # CoFMUPy adds up time, so a jump at a communication point might come one step late.
+    # CoFMUPy sums time, so a jump at a communication point might come one step late.
     controls = {(k - 0.5) * STEP: flight.controls(k) for k in JUMPS}
     connections = [
         {

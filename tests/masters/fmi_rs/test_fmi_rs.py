@@ -38,7 +38,7 @@ def program() -> Path:
 def fly(program: Path, kind: str, package: Package, flight: Flight, folder: Path) -> np.ndarray:
     """Values of NAMES after each step."""
     jumps = [*JUMPS, STEPS]
-    # fmi-rs interpolates between rows: a jump is two rows of one time.
+    # fmi-rs interpolates between rows: a jump is two rows with the same time.
     rows = [
         (step * STEP, *flight.controls(first))
         for first, last in pairwise(jumps)
@@ -51,7 +51,7 @@ def fly(program: Path, kind: str, package: Package, flight: Flight, folder: Path
     command += [f"{name}={value}" for name, value in flight.start.items()]
     subprocess.run(list(map(str, command)), check=True)
     flown = np.loadtxt(result, delimiter=",", skiprows=1)
-    # The first of two rows of one time is the one before the controls jump.
+    # The first of two rows with the same time is before the jump of the controls.
     _, first = np.unique(flown[:, 0], return_index=True)
     return flown[first[1:], 1:]
 

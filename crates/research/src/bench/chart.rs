@@ -1,4 +1,4 @@
-//! The picture: error against the least time of the repetitions, both logarithmic.
+//! The figure: error against the shortest time of the repetitions, both logarithmic.
 
 use super::precision::{OURS, Point};
 use ahv_tool::figure::{self, Area, COLOURS, Drawing, Drawn, FONT, FRAME, GRID};
@@ -11,9 +11,9 @@ use std::path::Path;
 // Sizes in pixels at scale one.
 const SIZE: (u32, u32) = (800, 560);
 const TEXT: u32 = 15;
-/// Room for the legend on the right.
+/// Width of the legend on the right.
 const LEGEND: u32 = 218;
-/// How the names of methods of one origin begin: they share a colour.
+/// Prefixes of the names of methods of one origin, which share a colour.
 const ORIGINS: [&[&str]; 5] =
     [&[OURS], &["ode_solvers"], &["CVODE", "ARKODE"], &["SciPy"], &["diffsol"]];
 
@@ -94,7 +94,7 @@ fn origin(method: &str) -> usize {
     ORIGINS.iter().position(begins).unwrap_or(ORIGINS.len() - 1)
 }
 
-/// A full or a hollow disc, a full or a hollow square: methods of one colour differ by them.
+/// Draws a filled or hollow disc or square, to distinguish methods of one colour.
 fn mark<B: DrawingBackend>(
     area: &Area<B>,
     (x, y): (i32, i32),

@@ -1,4 +1,4 @@
-//! The crate diffsol on our right-hand sides: its explicit method, and its implicit one with exact
+//! The crate diffsol with our right-hand side: its explicit method, and its implicit one with exact
 //! Jacobians.
 
 use super::rust_crates::Scaled;
@@ -13,7 +13,7 @@ use diffsol::{
 type Matrix = NalgebraMat<f64>;
 type Vector = NalgebraVec<f64>;
 
-/// First step, s: as in our flights only a guess.
+/// First step, s; an initial guess as in our flights.
 const FIRST_STEP_S: f64 = 1e-3;
 
 /// Tsitouras 5(4).
@@ -58,7 +58,7 @@ fn problem(
         .build()?)
 }
 
-/// The state at an instant, s.
+/// Integrates to an instant, s.
 fn reach<'a, E>(mut solver: impl OdeSolverMethod<'a, E>, end: f64) -> Result<State>
 where
     E: OdeEquations<T = f64, V = Vector> + 'a,

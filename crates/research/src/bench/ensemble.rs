@@ -13,12 +13,12 @@ use std::time::Instant;
 /// Communication steps of a flight of two seconds.
 const STEPS: u32 = 200;
 const STEP_S: f64 = 0.01;
-/// Largest elevator deflection, rad: the open-loop vehicle stays where its fits hold.
+/// Largest elevator deflection, rad, for which the open-loop vehicle stays in its envelope.
 const LARGEST: f64 = 5e-5;
-/// Runs whose best counts: another process on a core only ever costs time.
+/// Runs, of which the fastest counts: other processes only add time.
 const RUNS: usize = 3;
 
-/// Flies one of the flights; each has an elevator of its own.
+/// Flies one of the flights, each with a different elevator deflection.
 fn fly(mut flight: Flight, number: usize, flights: usize) -> Result<(), ahv::error::Error> {
     flight.set_input(DELTA_E, LARGEST * (2.0 * number as f64 / flights as f64 - 1.0));
     for step in 1..=STEPS {
@@ -27,7 +27,7 @@ fn fly(mut flight: Flight, number: usize, flights: usize) -> Result<(), ahv::err
     Ok(())
 }
 
-/// Flights per second on some threads.
+/// Flights per second with this number of threads.
 #[expect(clippy::disallowed_methods, reason = "threads are what is measured")]
 fn rate(start: &Flight, flights: usize, threads: usize) -> Result<f64> {
     let started = Instant::now();

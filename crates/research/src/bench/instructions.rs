@@ -1,4 +1,4 @@
-//! Instructions, which do not depend on how busy the machine is: counted by callgrind.
+//! Instruction counts by callgrind, which do not depend on the load of the machine.
 
 use super::Effort;
 use super::precision::fly;
@@ -14,12 +14,12 @@ use anyhow::{Context, Result, bail};
 use std::hint::black_box;
 use std::process::Command;
 
-/// Calls of a probe; a run with twice as many tells what they cost without the start.
+/// Calls of a probe; a run with twice as many gives their cost without start-up.
 const CALLS: usize = 1000;
-/// Steps of a flight in the probe of steps.
+/// Steps of a flight in the probe `steps`.
 const STEPS: usize = 100;
 
-/// Does something many times, for callgrind to count.
+/// Runs a probe many times, under callgrind.
 pub fn probe(probe: Probe, calls: usize) -> Result<()> {
     let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());

@@ -1,4 +1,4 @@
-//! In FMPy: the FMU, the same interface with steps that do nothing, and the vehicle in Python.
+//! Times in FMPy: the FMU, an FMU with empty steps, and the vehicle in Python.
 
 use super::Effort;
 use super::other_integrators::{lines, spread};
@@ -11,7 +11,7 @@ use anyhow::Result;
 use std::path::PathBuf;
 use std::process::Command;
 
-/// The FMU whose steps return at once.
+/// The FMU with empty steps.
 fn idle() -> Result<PathBuf> {
     let mut command = cargo();
     check(command.args(["run", "--quiet", "--release", "--package", "idle"]))?;

@@ -1,4 +1,4 @@
-//! Integrators of others on the same vehicle.
+//! SUNDIALS and SciPy on the same vehicle.
 
 use super::Effort;
 use super::precision::{Point, TOLERANCES};
@@ -21,10 +21,10 @@ const LIBRARIES: [&str; 7] = [
     "sundials_sunnonlinsolfixedpoint",
     "dl",
 ];
-/// A run of SciPy takes seconds.
+/// Repetitions of SciPy, which takes seconds.
 const SLOW_REPEATS: usize = 3;
 
-/// The program that has CVODE and ARKODE fly, compiled; an error if SUNDIALS is not installed.
+/// Compiles the program that flies with CVODE and ARKODE; an error if SUNDIALS is not installed.
 pub fn sundials() -> Result<PathBuf> {
     let program = target().join("bench/sundials");
     std::fs::create_dir_all(target().join("bench"))?;
@@ -35,7 +35,7 @@ pub fn sundials() -> Result<PathBuf> {
     let output = compiler.output().context("there is no C compiler")?;
     if !output.status.success() {
         bail!(
-            "crates/research/bench/sundials.c does not build; on Debian: apt-get install libsundials-dev"
+            "crates/research/bench/sundials.c does not compile; on Debian: apt-get install libsundials-dev"
         );
     }
     Ok(program)
@@ -73,7 +73,7 @@ pub fn under_scipy(python: &Path, effort: &Effort) -> Result<Vec<Point>> {
     lines(output)?.iter().map(|cells| point(cells, cells[6].parse()?)).collect()
 }
 
-/// Cells of a program's output.
+/// Parses the output of a program into cells.
 pub fn lines(output: std::process::Output) -> Result<Vec<Vec<String>>> {
     if !output.status.success() {
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -83,7 +83,7 @@ pub fn lines(output: std::process::Output) -> Result<Vec<Vec<String>>> {
     Ok(text.lines().map(|line| line.split(';').map(str::to_string).collect()).collect())
 }
 
-/// Median, least and largest of three cells.
+/// Parses median, minimum and maximum from three cells.
 pub fn spread(cells: &[String]) -> Result<Spread> {
     Ok(Spread { median: cells[0].parse()?, least: cells[1].parse()?, largest: cells[2].parse()? })
 }

@@ -1,4 +1,4 @@
-//! Error after one second against the time it takes: an elevator doublet on the flexible vehicle.
+//! Work-precision diagram: error after one second against computing time, for an elevator doublet.
 
 use super::Effort;
 use super::report::Report;
@@ -11,11 +11,11 @@ use ahv_tool::python::python;
 use anyhow::Result;
 use serde::Serialize;
 
-/// How the names of our method begin.
+/// Prefix of the names of our method.
 pub const OURS: &str = "ours";
-/// Of the picture.
+/// Tolerances of the figure.
 pub const TOLERANCES: [&str; 5] = ["1e-4", "1e-6", "1e-8", "1e-10", "1e-12"];
-/// Communication steps of the flight: 10 ms, and only where the input jumps.
+/// Communication steps of the flight: 10 ms, or only where the input jumps.
 const STEPS: [usize; 2] = [100, 4];
 
 /// One method at one tolerance.
@@ -27,11 +27,11 @@ pub struct Point {
     pub seconds: Spread,
     /// Right-hand sides.
     pub calls: usize,
-    /// Largest error of a state over its nominal value plus its size.
+    /// Largest error of a state over the sum of nominal value and magnitude.
     pub error: f64,
 }
 
-/// What `cargo ahv fly` does, without the C functions.
+/// A flight as in `cargo ahv fly`, without the C functions.
 pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::error::Error> {
     for step in 0..steps {
         flight.set_input(DELTA_E, law.elevator(step, steps, flight.state()));
@@ -40,7 +40,7 @@ pub fn fly(flight: &mut Flight, steps: usize, law: &Law) -> Result<State, ahv::e
     Ok(*flight.state())
 }
 
-/// Our flights at all tolerances, then those with other crates.
+/// Flights with our method at all tolerances, then with other crates.
 fn flights(effort: &Effort, setup: &Setup, steps: usize, law: Law) -> Result<Vec<Point>> {
     let default = setup.fly()?;
     let (vehicle, trim) = (default.vehicle(), default.trim());
@@ -95,9 +95,9 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     compare("closed loop, 1 s", &flights(effort, &setup, STEPS[0], closed)?, report);
     let mut points = flights(effort, &setup, STEPS[0], Law::OPEN)?;
     compare("1 s", &points, report);
-    // The others integrate anew where the elevator moves, as steps of a quarter do.
+    // Other integrators restart where the elevator jumps, as steps of a quarter do.
     let mut rare = flights(effort, &setup, STEPS[1], Law::OPEN)?;
-    // A peer that is not installed is left out; one that is and fails is an error.
+    // A program that is not installed is skipped; one that fails is an error.
     match other_integrators::sundials() {
         Ok(program) => {
             report.version("dpkg-query", &["-W", "-f=SUNDIALS ${Version}", "libsundials-dev"]);
@@ -118,8 +118,8 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     Ok(())
 }
 
-/// A line for each method at the default tolerance, and how long it takes for an error of that size,
-/// beside the first method of `points`, which is ours.
+/// A line for each method at the default tolerance, with its time for an error of that size compared with the first
+/// method of `points`, which is ours.
 fn compare(what: &str, points: &[Point], report: &mut Report) {
     let default = |point: &&Point| point.tolerance.parse() == Ok(DEFAULT_TOLERANCE);
     let mut methods: Vec<_> = points.iter().map(|point| &point.method).collect();
@@ -137,7 +137,7 @@ fn compare(what: &str, points: &[Point], report: &mut Report) {
                     None => ours = Some(seconds),
                 }
             } else {
-                note += "; never as exact";
+                note += "; never that accurate";
             }
             let what = format!("{what} at {}, {method}", point.tolerance);
             report.line(what, point.seconds.scaled(1e6), "us", note);
@@ -145,8 +145,8 @@ fn compare(what: &str, points: &[Point], report: &mut Report) {
     }
 }
 
-/// Seconds for an error: between two points both fall as powers of each other; looser than the
-/// first point costs no less. Least times: another process on a core only ever adds some.
+/// Seconds for an error, interpolated between points with logarithmic scales; the time of the first point for
+/// larger errors. Uses shortest times, as other processes only add time.
 fn time_for(points: &[&Point], error: f64) -> Option<f64> {
     let first = points.first()?;
     if first.error <= error {

@@ -1,4 +1,4 @@
-//! The table of a run, and the circumstances under which it was made.
+//! The table of a benchmark, with machine and versions.
 
 use super::chart;
 use super::precision::Point;
@@ -18,26 +18,26 @@ pub struct Line {
     pub unit: &'static str,
     #[serde(flatten)]
     pub value: Spread,
-    /// Aim or comparison.
+    /// Target or comparison.
     pub note: String,
 }
 
 #[derive(Debug, Serialize)]
 pub struct Report {
-    /// Processor, cores and how busy they were.
+    /// Processor, cores and load.
     pub machine: String,
-    /// Of the source; `+` if files have changed since.
+    /// Commit of the source; `+` if files have changed since.
     pub commit: String,
-    /// Compilers, tools and peers that were used.
+    /// Versions of compilers, tools and other integrators.
     pub versions: Vec<String>,
     pub lines: Vec<Line>,
-    /// What could not be measured here, and why.
+    /// Skipped measurements, with reasons.
     pub left_out: Vec<String>,
-    /// Error against time, for the picture.
+    /// Error against time, for the figure.
     pub points: Vec<Point>,
 }
 
-/// First line of what a program says; none if there is no such program.
+/// First line of the output of a program; `None` if there is no such program.
 pub fn says(program: impl AsRef<OsStr>, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).current_dir(root()).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -86,7 +86,7 @@ impl Report {
         self.lines.push(line);
     }
 
-    /// Adds the first line of what a peer's tool says of versions, once.
+    /// Adds the version printed by a program, once.
     pub fn version(&mut self, program: impl AsRef<OsStr>, arguments: &[&str]) {
         let version = says(program, arguments).filter(|version| !self.versions.contains(version));
         self.versions.extend(version);
@@ -103,7 +103,7 @@ impl Report {
 
     pub fn left_out(&mut self, what: &str, why: &anyhow::Error) {
         let text = format!("{what}: {why:#}");
-        errln!("  left out: {text}");
+        errln!("  skipped: {text}");
         self.left_out.push(text);
     }
 
@@ -116,7 +116,7 @@ impl Report {
         }
         write_together(&files)?;
         outln!("{}\ncommit {}; {}\n", self.machine, self.commit, self.versions.join("; "))?;
-        let mut rows = vec![row(["", "median", "least", "largest", "unit", "note"])];
+        let mut rows = vec![row(["", "median", "min", "max", "unit", "note"])];
         for Line { what, unit, value, note } in &self.lines {
             let mut cells = vec![what.clone(), number(value.median)];
             let varies = value.least != value.largest;
@@ -129,7 +129,7 @@ impl Report {
         }
         out!("{}", table(&rows))?;
         for text in &self.left_out {
-            outln!("  left out: {text}")?;
+            outln!("  skipped: {text}")?;
         }
         outln!("")?;
         for file in files.keys() {

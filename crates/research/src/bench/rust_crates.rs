@@ -1,4 +1,4 @@
-//! Integrators of other crates on our right-hand sides.
+//! Integrators of other crates with our right-hand side.
 
 use crate::methods::Counted;
 use ahv::solve::System as _;
@@ -6,11 +6,11 @@ use ahv::vehicle::{NOMINAL, STATES, State};
 use anyhow::Result;
 use ode_solvers::{Dop853, OutputType, SVector, System};
 
-/// Moves a state through an interval (s), at a tolerance. The state is over its nominal values, so that
-/// one absolute tolerance is that of our flights.
+/// Integrates a state over an interval (s) at a tolerance. The state is scaled by its nominal values, so that one
+/// absolute tolerance is equivalent to that of our flights.
 pub type Step = fn(&Scaled, [f64; 2], &State, f64) -> Result<State>;
 
-/// The crates, by the names of their methods.
+/// The methods of the crates.
 pub const CRATES: &[(&str, Step)] = &[
     ("ode_solvers", ode_solvers),
     #[cfg(feature = "diffsol")]
@@ -19,7 +19,7 @@ pub const CRATES: &[(&str, Step)] = &[
     ("diffsol BDF", super::diffsol::bdf),
 ];
 
-/// Names and versions of the crates, as they are locked.
+/// Names and locked versions of the crates.
 pub fn versions() -> Result<Vec<String>> {
     let lock: toml::Table = toml::from_str(include_str!("../../../../Cargo.lock"))?;
     let packages = lock["package"].as_array().into_iter().flatten();
@@ -30,7 +30,7 @@ pub fn versions() -> Result<Vec<String>> {
     Ok(named.filter(|[name, _]| used(name)).map(|name| name.join(" ")).collect())
 }
 
-/// The vehicle in one communication step, its state over nominal values.
+/// The vehicle in one communication step, with scaled state.
 pub struct Scaled<'a>(pub &'a Counted<'a>);
 
 impl Scaled<'_> {
@@ -41,7 +41,7 @@ impl Scaled<'_> {
     }
 }
 
-/// One communication step; the integration starts anew.
+/// Integrates one communication step from a restart.
 pub fn step(
     method: Step,
     system: &Counted,

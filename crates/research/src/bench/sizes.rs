@@ -1,4 +1,4 @@
-//! Sizes: of the library, of an instance, of a saved state.
+//! Sizes of library, instance and saved state.
 
 use super::Effort;
 use super::report::Report;

@@ -1,4 +1,4 @@
-//! From nothing to the first step, and the eigenproblem inside it.
+//! Start-up time, and the time of the eigenproblem.
 
 use super::Effort;
 use super::other_integrators::lines;
@@ -11,7 +11,7 @@ use ahv::structure::Modes;
 use ahv::vehicle::structure;
 use ahv_tool::fmu::Fmu;
 use ahv_tool::master::Instance;
-use ahv_tool::modes::solved_elements;
+use ahv_tool::modes::eigenproblem_json;
 use ahv_tool::package::{self, Targets};
 use ahv_tool::python::python;
 use ahv_tool::workspace::{root, target, write};
@@ -19,9 +19,9 @@ use anyhow::Result;
 use std::process::Command;
 use std::time::Instant;
 
-/// Numbers of elements over which the eigenproblem grows.
+/// Numbers of elements of the eigenproblems.
 const ELEMENTS: [u32; 5] = [125, 250, 500, 1000, 2000];
-/// Those of the vehicle, with which SciPy is compared.
+/// Number of elements for the comparison with SciPy, as in the vehicle.
 const PEERS: u32 = 500;
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
@@ -63,13 +63,13 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         let note = format!("{growth:.2} x the time per element of 125");
         report.line(format!("modes, {elements} elements"), time.scaled(1e3), "ms", note);
     }
-    if let Err(why) = peers(report, &solved_elements(&options)?, ours) {
+    if let Err(why) = peers(report, &eigenproblem_json(&options)?, ours) {
         report.left_out("eigsh and LAPACK", &why);
     }
     Ok(())
 }
 
-/// SciPy on the same matrices; we took `ours` s.
+/// Times SciPy on the same matrices; `ours` is our time, s.
 fn peers(report: &mut Report, problem: &serde_json::Value, ours: f64) -> Result<()> {
     let file = target().join("bench/beam.json");
     write(&file, problem.to_string())?;

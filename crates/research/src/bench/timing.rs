@@ -1,10 +1,10 @@
-//! Times: median, smallest and largest of some repetitions.
+//! Timing: median, minimum and maximum of repetitions.
 
 use super::Effort;
 use serde::Serialize;
 use std::time::Instant;
 
-/// Of a set of measurements.
+/// Median, minimum and maximum of measurements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
     pub median: f64,
@@ -32,7 +32,7 @@ impl Spread {
     }
 }
 
-/// Seconds per call of something, each repetition as many calls as fill a batch.
+/// Seconds per call; each repetition makes as many calls as fill a batch.
 pub fn seconds<T>(effort: &Effort, mut call: impl FnMut() -> T) -> Spread {
     let mut batch = |calls: u32| {
         let started = Instant::now();

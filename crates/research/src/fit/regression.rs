@@ -22,8 +22,8 @@ const fn term(table: &'static str, key: &'static str, powers: [i32; 3]) -> Term 
     Term { table, key, powers }
 }
 
-/// The terms of each coefficient: those of the published set, C_L,alpha2, and what a plume under
-/// the aft-body and an elevator with strong shocks that turns with the body add.
+/// The terms of each coefficient: those of the published set, C_L,alpha2, and terms for the plume under the aft-body
+/// and for an elevator with strong shocks.
 pub const TERMS: [&[Term]; 4] = [
     &[
         term("lift", "constant", [0, 0, 0]),
@@ -65,7 +65,7 @@ pub const TERMS: [&[Term]; 4] = [
 ];
 
 impl Term {
-    /// Unit of its factor.
+    /// Unit of its coefficient.
     pub fn unit(&self) -> &'static str {
         ["1", "1/rad", "1/rad^2", "1/rad^3"][(self.powers[0] + self.powers[1]) as usize]
     }
@@ -85,7 +85,7 @@ pub struct Sample {
 /// First value, step and number of values; degrees for angles.
 pub type Axis = (f64, f64, usize);
 
-/// The coefficients on a grid of alpha, delta_e and phi; how many points were choked.
+/// The coefficients on a grid of alpha, delta_e and phi, and the number of choked points.
 pub fn samples(
     model: &ShockExpansion,
     ahead: &Stream,
@@ -127,7 +127,7 @@ fn sample(
 /// Factors of the terms of one coefficient.
 pub fn fit(samples: &[Sample], coefficient: usize) -> Result<Vec<f64>> {
     let terms = TERMS[coefficient];
-    // Columns of equal size keep the digits.
+    // Scaled columns improve the conditioning.
     let columns = DMatrix::from_fn(samples.len(), terms.len(), |row, column| {
         terms[column].at(&samples[row].attitude)
     });
@@ -144,7 +144,7 @@ pub fn fit(samples: &[Sample], coefficient: usize) -> Result<Vec<f64>> {
     Ok(solution.iter().zip(scale).map(|(value, scale)| round(value / scale)).collect())
 }
 
-/// Six digits: what is written is what is used, and what every machine finds.
+/// Rounds to six digits, the same on every machine.
 fn round(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
@@ -157,7 +157,7 @@ pub struct Deviation {
     pub range: f64,
 }
 
-/// How far the factors are from samples.
+/// Deviation of the fit from samples.
 pub fn deviation(samples: &[Sample], coefficient: usize, factors: &[f64]) -> Deviation {
     let (mut sum, mut largest) = (0.0, 0.0_f64);
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);

@@ -1,4 +1,4 @@
-//! Stiffness and tanks from Table 1.
+//! Identification of stiffness and tanks from Table 1 and the short period of Table 2.
 
 mod model;
 mod numbers;

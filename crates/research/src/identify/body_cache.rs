@@ -1,5 +1,5 @@
-//! BodyCache by what an identification may move of them: of the numbers of a coefficient set only inertia
-//! and mass centre change the structure, and its modes cost more than all the rest.
+//! Cache of bodies. Of a coefficient set only inertia and mass centre change the structure, whose modes take most
+//! of the time.
 
 use ahv::data::Inertia;
 use ahv::error::Error;
@@ -7,18 +7,18 @@ use ahv::vehicle::{Body, Configuration, VehicleDefinition};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Enough for a Jacobian: three columns, at a point and a step to either side in two numbers.
+/// Enough for a Jacobian: three columns, at a point and steps to both sides in two numbers.
 const KEPT: usize = 16;
 
-/// Configuration, and the bits of inertia and mass centre.
+/// Configuration, and bit patterns of inertia and mass centre.
 type Key = (Configuration, u64, Option<u64>);
 
-/// The latest bodies. All builds must agree in everything else that shapes a structure.
+/// The latest bodies. All vehicles must agree in everything else that determines the structure.
 #[derive(Default)]
 pub struct BodyCache(Mutex<VecDeque<(Key, Arc<Body>)>>);
 
 impl BodyCache {
-    /// [`Body::new`], unless it is known.
+    /// The body, from the cache or by [`Body::new`].
     pub fn of(&self, definition: &VehicleDefinition) -> Result<Arc<Body>, Error> {
         let Inertia { i_yy_kg_m2_per_m, mass_centre_shift_m, .. } = &definition.aero.inertia;
         let shift = mass_centre_shift_m.as_ref().map(|shift| shift.value.to_bits());

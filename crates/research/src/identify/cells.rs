@@ -1,4 +1,4 @@
-//! The cells of Tables 2 and 3: what is printed, how closely it is wanted, what a vehicle gives.
+//! The cells of Tables 2 and 3: printed number, wanted accuracy, value of a vehicle.
 
 use crate::published::Published;
 use ahv::dynamics::linear::LinearModel;
@@ -11,11 +11,11 @@ use nalgebra::Complex;
 pub const COLUMNS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
 
-/// Wanted accuracies, relative: the weights of the misfit.
+/// Wanted relative accuracies, the weights of the misfit.
 const SHORT_PERIOD: f64 = 0.05;
 const REAL_ZERO: f64 = 0.08;
 const POLE: [Option<f64>; 2] = [Some(0.02), Some(0.10)];
-/// The decay of a zero is shown only: it is the small difference of what sensor and controls see.
+/// The real part of a zero, a small difference of sensor and control influence, is not fitted.
 const ZERO: [Option<f64>; 2] = [Some(0.10), None];
 
 /// One printed number.
@@ -25,7 +25,7 @@ pub struct Cell {
     pub column: Configuration,
     pub name: String,
     pub printed: f64,
-    /// Wanted accuracy; none for what eqs (3)-(4) cannot give, which is shown only.
+    /// Wanted accuracy; `None` for a number that is shown but not fitted.
     pub wanted: Option<f64>,
 }
 
@@ -48,8 +48,8 @@ fn pairs(list: &[[f64; 2]], what: &str, [frequency, rate]: [Option<f64>; 2]) -> 
     named.collect()
 }
 
-/// Size of a pair of real roots of opposite sign, their geometric mean. Without derivatives by q, eqs
-/// (3)-(4) make zeros equal but for sign; the printed ones are not (errata.md), so this is compared.
+/// Geometric mean of a pair of real roots of opposite sign. Eqs (3)-(4), without derivatives with respect to q,
+/// give symmetric zeros; the printed ones are not symmetric (errata.md), so their mean is compared.
 pub fn size([right, left]: [f64; 2]) -> f64 {
     (-right * left).abs().sqrt()
 }
@@ -90,7 +90,7 @@ pub fn cells() -> Result<Vec<Cell>> {
     Ok(cells)
 }
 
-/// Roots of one kind, sorted out.
+/// Poles or zeros, sorted.
 struct Roots {
     /// Ascending.
     real: Vec<f64>,
@@ -105,7 +105,7 @@ impl Roots {
         Self { real, pairs: all.into_iter().filter(|root| root.im > 0.0).collect() }
     }
 
-    /// The largest and the smallest real root, if their signs differ.
+    /// The largest and smallest real root, if their signs differ.
     fn outer(&self) -> Option<[f64; 2]> {
         let (left, right) = (*self.real.first()?, *self.real.last()?);
         (left < 0.0 && right > 0.0).then_some([right, left])
@@ -117,13 +117,13 @@ impl Roots {
     }
 }
 
-/// The unstable and the stable pole of the short period; none if it oscillates.
+/// The unstable and the stable pole of the short period; `None` if it oscillates.
 pub fn short_period(linear: &LinearModel) -> Option<[f64; 2]> {
     Roots::new(linear.poles()).outer()
 }
 
-/// What a trimmed vehicle puts into the cells of its column; none with roots of another kind than
-/// the printed ones.
+/// Values of a trimmed vehicle in the cells of its column; `None` if its roots are of another kind than the
+/// printed ones.
 pub fn values(vehicle: &Vehicle, trim: &Trim) -> Option<Vec<f64>> {
     let linear = LinearModel::with_imu_gamma(vehicle, &trim.state, &trim.control);
     let (poles, zeros) = (Roots::new(linear.poles()), Roots::new(linear.zeros()));

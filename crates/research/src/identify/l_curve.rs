@@ -1,4 +1,4 @@
-//! The trade-off between misfit and distance, and its knee.
+//! The L-curve, the trade-off between misfit and distance, and its knee.
 
 use super::body_cache::BodyCache;
 use super::cells::{COLUMNS, Cell, cells, values};
@@ -11,21 +11,21 @@ use ahv::vehicle::{ALPHA, DELTA_E, PHI, Vehicle, VehicleDefinition, VehicleOptio
 use anyhow::{Context, Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 
-/// Weights of the distance along the path: from where nothing moves to where nothing holds back.
+/// Weights of the distance along the curve, from no change of the numbers to no regularisation.
 const FIRST_WEIGHT: f64 = 1e4;
 const LAST_WEIGHT: f64 = 1e-2;
 const STEPS_PER_DECADE: i32 = 4;
-/// The end of a search beyond the knee: what is found there is shown, and not used. A long walk
-/// from one valley to the next goes on at the next weight.
+/// End of a search beyond the knee, where results are shown but not used. A search that does not converge
+/// continues at the next weight.
 const SHOWN: End = (1e-4, 40);
-/// A number that would move by less stays where it is.
+/// Smallest change of a number; smaller ones are reset.
 const STAYS: f64 = 0.01;
-/// Part of its range, about the middle, that a trimmed control or incidence may use freely, and
-/// the excess that costs as much as a cell off by its wanted accuracy.
+/// Share of its range, about the middle, that a trimmed control or incidence uses without penalty, and the excess
+/// with the same cost as a cell off by its wanted accuracy.
 const ROOM: f64 = 0.75;
 const EXCESS: f64 = 0.05;
 
-/// The tables and the vehicle that is to fill them.
+/// The tables and the vehicle fitted to them.
 pub struct Model {
     pub cells: Vec<Cell>,
     pub origin: Origin,
@@ -34,7 +34,7 @@ pub struct Model {
     pub(super) bodies: BodyCache,
 }
 
-/// One point of the trade-off.
+/// One point of the curve.
 #[derive(Debug, Clone)]
 pub struct Point {
     pub weight: f64,
@@ -47,26 +47,25 @@ impl Point {
         self.fit.residual.norm_squared()
     }
 
-    /// Sum over the numbers of (ln ratio / doubt)^2.
+    /// Sum over the numbers of (ln ratio / prior standard deviation)^2.
     pub fn distance(&self) -> f64 {
         self.fit.point.norm_squared()
     }
 
-    /// Which numbers do not move.
+    /// Which numbers are unchanged.
     fn held(&self) -> Vec<bool> {
         self.fit.point.iter().map(|coordinate| *coordinate == 0.0).collect()
     }
 }
 
-/// A vehicle that is trimmed even where its controls would not reach, so that the misfit has no
-/// edge there; [`excess`] makes up for it.
+/// A vehicle without control limits, so that the misfit is smooth there; [`excess`] penalises it.
 fn unlimited(mut vehicle: Vehicle) -> Vehicle {
     vehicle.limits = [f64::INFINITY; 2];
     vehicle.aero.envelope.alpha = [f64::NEG_INFINITY, f64::INFINITY];
     vehicle
 }
 
-/// How far a value is beyond its share of a range, over [`EXCESS`].
+/// Excess of a value beyond its share of a range, over [`EXCESS`].
 fn excess(value: f64, [min, max]: [f64; 2]) -> f64 {
     let off_middle = ((2.0 * value - min - max) / (max - min)).abs();
     (off_middle - ROOM).max(0.0) / EXCESS
@@ -98,7 +97,7 @@ impl Model {
         self.columns.iter().map(one).collect()
     }
 
-    /// What a coefficient set puts into the cells.
+    /// Values of the cells with a coefficient set.
     pub fn values(&self, set: &AeroData) -> Option<Vec<f64>> {
         let columns = self.trimmed(set)?;
         let values: Option<Vec<_>> = columns.iter().map(|(v, trim)| values(v, trim)).collect();
@@ -116,7 +115,7 @@ impl Model {
         )
     }
 
-    /// Errors over wanted accuracies of the cells that have one, then the excess of the trims.
+    /// Errors over wanted accuracies of the fitted cells, then the excess of the trims.
     fn residual(&self, point: &DVector<f64>) -> Option<DVector<f64>> {
         let set = self.origin.moved(point)?;
         let actuation = &self.data.vehicle.actuation;
@@ -141,8 +140,8 @@ impl Model {
         Ok(Point { weight, fit })
     }
 
-    /// The branch of the trade-off that begins at the published set: each point starts from the one
-    /// before. It is followed until its knee is known, or to its end. `tell` hears of every point.
+    /// The branch from the published set: each point starts from the one before. It ends where the knee is known,
+    /// or at the last weight. `tell` is called for every point.
     fn branch(&self, until_knee: bool, tell: &dyn Fn(&Point)) -> Result<Vec<Point>> {
         let decades = libm::log10(FIRST_WEIGHT / LAST_WEIGHT).round() as i32;
         let mut start = DVector::zeros(MOVABLE.len());
@@ -161,16 +160,15 @@ impl Model {
         Ok(path)
     }
 
-    /// The point that is chosen, and nothing beyond it.
+    /// The chosen point, without points beyond it.
     pub fn chosen(&self) -> Result<Point> {
         let path = self.branch(true, &|_| ())?;
         let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
         self.sparse(&path[knee])
     }
 
-    /// The whole trade-off and the index of its knee. Beyond the knee the path is gone back up as
-    /// well, and the better of two points stays: there are several valleys, far from the published
-    /// set, and there may be more.
+    /// The whole curve and the index of its knee. Beyond the knee it is also followed backwards, and the better of
+    /// two points is kept, because there are several local minima far from the published set.
     pub fn path(&self, tell: &dyn Fn(&Point)) -> Result<(Vec<Point>, usize)> {
         let mut path = self.branch(false, tell)?;
         let knee = knee(&path).ok_or_else(|| anyhow!("the trade-off has no knee"))?;
@@ -186,7 +184,7 @@ impl Model {
         Ok((path, knee))
     }
 
-    /// The point again, with every number put back that would move by less than [`STAYS`].
+    /// The point fitted again with all changes below [`STAYS`] reset.
     pub fn sparse(&self, point: &Point) -> Result<Point> {
         let mut sparse = point.clone();
         loop {
@@ -201,15 +199,15 @@ impl Model {
         }
     }
 
-    /// How the cells answer all numbers at a point, moved or not.
+    /// Sensitivity of the cells to all numbers at a point.
     pub fn sensitivity(&self, point: &Point) -> Result<DMatrix<f64>> {
         jacobian(&|p| self.residual(p), &point.fit.point, &[false; MOVABLE.len()])
             .ok_or_else(|| anyhow!("no derivative at the solution"))
     }
 }
 
-/// Curvature of ln misfit over ln distance at each point: one over the radius of the circle through
-/// it and its neighbours, positive where the curve bends up. The ends have none.
+/// Curvature of ln misfit over ln distance at each point, from the circle through it and its neighbours; positive
+/// where the curve bends up, zero at the ends.
 pub fn bends(path: &[Point]) -> Vec<f64> {
     let places: Vec<[f64; 2]> =
         path.iter().map(|point| [point.distance(), point.misfit()].map(libm::log)).collect();
@@ -220,8 +218,8 @@ pub fn bends(path: &[Point]) -> Vec<f64> {
     bends
 }
 
-/// The knee: the first place, coming from the published set, where the curve bends up more than at
-/// the next point. Later bends lie between valleys.
+/// The knee: the first local maximum of curvature, starting from the published set. Later ones are between local
+/// minima.
 fn knee(path: &[Point]) -> Option<usize> {
     let bends = bends(path);
     let inner = 1..path.len().saturating_sub(2);

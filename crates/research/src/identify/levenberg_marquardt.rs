@@ -1,24 +1,24 @@
-//! Nonlinear least squares: Levenberg and Marquardt's method on r(p)^2 + weight p^2.
+//! Regularised nonlinear least squares: minimises r(p)^2 + weight p^2 by the Levenberg-Marquardt method.
 
 use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 use std::panic::resume_unwind;
 use std::thread;
 
-/// Central differences: the truncation error of a smooth residual is then below 1e-9.
+/// Step of central differences; the truncation error of a smooth residual is below 1e-9.
 const STEP: f64 = 1e-5;
-/// When a search ends: with a step below the first, or after so many steps.
+/// End of a search: step size, or number of steps.
 pub type End = (f64, usize);
-/// A step this small changes no digit that is written.
+/// A step below which no written digit changes.
 pub const CONVERGED: End = (1e-9, 200);
-/// Damping of the first step, and how it changes after a success and a failure.
+/// Damping of the first step, and its factors after success and failure.
 const DAMPING: f64 = 1e-3;
 const RELAX: f64 = 0.2;
 const TIGHTEN: f64 = 5.0;
-/// A step that needs more damping than this gains nothing that rounding would leave.
+/// Damping at which the gain of a step is below rounding errors.
 const STUCK: f64 = 1e12;
 
-/// Residuals at a point; none where the model has no answer (no trim, no such root).
+/// Residuals at a point; `None` where the model has no solution (no trim, no such root).
 pub type Residual<'a> = dyn Fn(&DVector<f64>) -> Option<DVector<f64>> + Sync + 'a;
 
 /// A minimum.
@@ -30,7 +30,7 @@ pub struct Fit {
 }
 
 impl Fit {
-    /// None without an answer or its derivatives, or where it costs more than `limit`.
+    /// `None` without a solution or its derivatives, or where the cost is above `limit`.
     fn at(
         residual: &Residual,
         point: DVector<f64>,
@@ -56,7 +56,7 @@ fn cost(residual: &DVector<f64>, point: &DVector<f64>, weight: f64) -> f64 {
     residual.norm_squared() + weight * point.norm_squared()
 }
 
-/// d residual / d point, its columns on all processors. Directions in `held` are left at zero.
+/// Jacobian d residual / d point, with columns computed in parallel; columns in `held` are zero.
 pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Option<DMatrix<f64>> {
     let count = residual(point)?.len();
     let column = |i: usize| {
@@ -86,7 +86,7 @@ pub fn jacobian(residual: &Residual, point: &DVector<f64>, held: &[bool]) -> Opt
     Some(DMatrix::from_columns(&columns))
 }
 
-/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` stay.
+/// Minimises r^2 + `weight` p^2 from `start`; coordinates in `held` are fixed.
 pub fn minimise(
     residual: &Residual,
     start: &DVector<f64>,
@@ -95,7 +95,7 @@ pub fn minimise(
     (converged, steps): End,
 ) -> Result<Fit> {
     let mut fit = Fit::at(residual, start.clone(), held, weight, f64::INFINITY)
-        .ok_or_else(|| anyhow!("the model has no answer where the identification starts"))?;
+        .ok_or_else(|| anyhow!("the model has no solution at the start of the identification"))?;
     let mut damping = DAMPING;
     for _ in 0..steps {
         let Fit { point, residual: r, jacobian: j } = &fit;
@@ -114,7 +114,7 @@ pub fn minimise(
                 .map(|factor| factor.solve(&-&slope))
                 .ok_or_else(|| anyhow!("the normal equations are singular"))?;
             step.iter_mut().zip(held).filter(|(_, held)| **held).for_each(|(s, _)| *s = 0.0);
-            // A point without derivatives, at the edge of where there are answers, is none.
+            // A point without derivatives, at the edge of the domain, is not accepted.
             let better = Fit::at(residual, point + &step, held, weight, fit.cost(weight));
             if better.is_some() || damping > STUCK {
                 break better.map(|next| (step, next));

@@ -1,4 +1,4 @@
-//! The numbers of a coefficient set that may move, how freely, and the file of the moved set.
+//! The adjustable numbers of a coefficient set, their priors, and the file of the adjusted set.
 
 use ahv::data::{AeroData, PARKER2007};
 use anyhow::{Result, anyhow};
@@ -6,20 +6,19 @@ use nalgebra::DVector;
 use std::fmt::Write;
 use toml::{Table, Value};
 
-/// A fit of this family is good to about a fifth.
+/// Prior standard deviation of fit coefficients: about a fifth.
 const FIT: f64 = 0.2;
-/// Printed and published inertia are a factor of ten apart: half of that either way.
+/// Of the inertia: printed and published values differ by a factor of ten, half of that either way.
 const INERTIA: f64 = std::f64::consts::LN_10 / 2.0;
-/// Damping ratios of structures are known to a factor of about 1.6.
+/// Of structural damping ratios: a factor of about 1.6.
 const STRUCTURE: f64 = 0.5;
-/// Strips of uniform load, one lift slope: good to a factor of two.
+/// Of elastic terms from strip theory with one lift slope: a factor of two.
 const ELASTIC: f64 = std::f64::consts::LN_2;
 
-/// The printed densities put the mass centre at 55 ft, and the text fixes the beam there; a twentieth of
-/// the length either way, m.
+/// Of the mass centre about the printed 55 ft: a twentieth of the length, m.
 const BALANCE: f64 = 1.524;
 
-/// Numbers that move by a difference; the others move by a ratio.
+/// Numbers adjusted by a difference; the others by a ratio.
 pub const MASS_CENTRE: &str = "inertia.mass_centre_shift_m";
 pub const GAMMA_OFFSET: &str = "reference.gamma_offset_m";
 
@@ -27,8 +26,7 @@ pub fn moves_by_difference(key: &str) -> bool {
     [MASS_CENTRE, GAMMA_OFFSET].contains(&key)
 }
 
-/// Movable numbers, each with its doubt: the natural logarithm of the ratio, or the difference, that
-/// costs 1.
+/// Adjustable numbers with prior standard deviations of the natural logarithm of the ratio, or of the difference.
 pub const MOVABLE: [(&str, f64); 27] = [
     ("reference.elastic_scale", ELASTIC),
     ("inertia.i_yy_kg_m2_per_m", INERTIA),
@@ -59,16 +57,16 @@ pub const MOVABLE: [(&str, f64); 27] = [
     ("thrust_phi.alpha3", FIT),
 ];
 
-/// Significant digits of a written number: more than the data determine.
+/// Significant digits of a written number; more than the data determine.
 const DIGITS: usize = 5;
 
-/// The published set, from which the numbers move.
+/// The published set, which is adjusted.
 #[derive(Debug, Clone)]
 pub struct Origin {
     table: Table,
 }
 
-/// The number behind a key: `table.entry` or `table.entry.index`.
+/// The number of a key: `table.entry` or `table.entry.index`.
 fn number<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut f64> {
     let mut parts = key.split('.');
     let entry = table.get_mut(parts.next()?)?.get_mut(parts.next()?)?;
@@ -111,7 +109,7 @@ impl Origin {
         table
     }
 
-    /// Values in the order of [`MOVABLE`], and as they are written once moved.
+    /// Published and adjusted values in the order of [`MOVABLE`], as written.
     pub fn values(&self, point: &DVector<f64>) -> Vec<[f64; 2]> {
         let (mut from, mut to) = (self.table.clone(), self.with(point));
         let pair = |(key, _)| {
@@ -122,7 +120,7 @@ impl Origin {
         MOVABLE.into_iter().filter_map(pair).collect()
     }
 
-    /// The file of the moved set: that of the published one, line by line.
+    /// The file of the adjusted set: that of the published one with changed lines.
     pub fn file(&self, point: &DVector<f64>) -> Result<String> {
         let values = self.values(point);
         let mut text = HEADER.to_string();
@@ -163,23 +161,23 @@ impl Origin {
 }
 
 const HEADER: &str = "\
-# Curve fits of eq. (4): parker2007 moved as little as possible towards Tables 2 and 3 of the paper.
+# Curve fits of eq. (4): parker2007, changed as little as possible to approach Tables 2 and 3 of the paper.
 # Written by `cargo ahv identify xu2015`, which prints norm, misfit and trade-off; do not edit.
-# Every moved number says by how much; the others are those of parker2007.
+# The source of each changed number states its change; the others are those of parker2007.
 ";
 
-/// By how much a number moved: a factor, or a difference in its unit.
+/// The change of a number: a factor, or a difference in its unit.
 pub fn written_move(key: &str, [old, new]: [f64; 2]) -> String {
     if moves_by_difference(key) { format!("{:.4}", new - old) } else { format!("{:.4}", new / old) }
 }
 
-/// Whether a coordinate moves its number by less than a part of it, or of its doubt.
+/// Whether a coordinate changes its number by less than a fraction of it, or of its standard deviation.
 pub fn hardly_moves(i: usize, x: f64, least: f64) -> bool {
     let (key, doubt) = MOVABLE[i];
     if moves_by_difference(key) { x.abs() < least } else { (doubt * x).abs() < libm::log1p(least) }
 }
 
-/// The digits that are written.
+/// Rounds to the written digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
 }

@@ -1,4 +1,4 @@
-//! What is shown of an identification.
+//! Report of the identification of `xu2015`.
 
 use super::l_curve::{Model, Point, bends};
 use super::numbers::{MOVABLE, written_move};
@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// Values of the cells with one set, its trims, and where things sit in it.
+/// Values of the cells with one set, its trims and its stations.
 struct Filled {
     name: &'static str,
     values: Vec<f64>,
@@ -28,7 +28,7 @@ impl Filled {
     }
 }
 
-/// An identification with all its reasons.
+/// Results of the identification.
 pub struct Report<'a> {
     model: &'a Model,
     path: &'a [Point],
@@ -61,26 +61,27 @@ impl<'a> Report<'a> {
     pub fn text(&self) -> Result<String> {
         let mut text = String::from(
             "Misfit: sum over the cells of (relative error / wanted accuracy)^2\n\
-             Distance from parker2007: sum over the numbers of (ln ratio / doubt)^2, or (difference / doubt)^2\n\n\
-             Trade-off: misfit + weight x distance is least; the knee is the first\n\
-             sharpest bend of ln misfit over ln distance; \"unbound\" is the last line\n",
+             Distance from parker2007: sum over the numbers of (ln ratio / sd)^2, or (difference / sd)^2,\n\
+             where sd is the prior standard deviation\n\n\
+             Trade-off: minimum of misfit + weight x distance; the knee is the first local maximum\n\
+             of the curvature of ln misfit over ln distance; \"unbound\" is the last line\n",
         );
         text += &self.trade_off();
-        text += "\nMoved numbers, factors on parker2007, or the difference of the mass centre, m; a number that would move by less than 1 % stays\n";
+        text += "\nChanged numbers: factors on parker2007, or differences in m; changes of less than 1 % are reset\n";
         text += &self.numbers();
         let weight = self.chosen.weight;
         writeln!(
             text,
-            "\nWhat the data determine: singular values above {}",
+            "\nDetermined by the data: singular values above {}",
             number(weight.sqrt())
         )?;
         text += &self.combinations();
-        text += "\nCells, rad/s; errors of those without a wanted accuracy do not count\n";
+        text += "\nCells, rad/s; those without a wanted accuracy are not fitted\n";
         text += &self.cells();
         text += "\nTrim: incidence, elevator, fuel ratio\n";
         text += &self.trims();
-        text += "\nfree_stations: the best that one inertia and free stations can do; all coefficients are \
-                 published but the elevator's moment\n";
+        text += "\nfree_stations: best fit with one inertia and free stations; all coefficients except the \
+                 elevator's moment are published\n";
         for filled in &self.filled {
             writeln!(text, "{}: {}", filled.name, filled.stations.text())?;
         }
@@ -88,7 +89,7 @@ impl<'a> Report<'a> {
     }
 
     fn trade_off(&self) -> String {
-        let mut rows = vec![row(["weight", "distance", "misfit", "bend", ""])];
+        let mut rows = vec![row(["weight", "distance", "misfit", "curvature", ""])];
         for (i, (point, bend)) in self.path.iter().zip(bends(self.path)).enumerate() {
             let mark = if i == self.knee { "knee" } else { "" };
             rows.push(vec![
@@ -115,8 +116,8 @@ impl<'a> Report<'a> {
             "doubt",
             "parker2007",
             "xu2015",
-            "moved by",
-            "decided by data",
+            "change",
+            "determined by data",
             "unbound",
         ])];
         for (i, ((key, doubt), [old, new])) in MOVABLE.into_iter().zip(values).enumerate() {
@@ -136,7 +137,7 @@ impl<'a> Report<'a> {
 
     fn combinations(&self) -> String {
         let limit = self.chosen.weight.sqrt();
-        let mut rows = vec![row(["singular value", "combination of ln ratio / doubt"])];
+        let mut rows = vec![row(["singular value", "combination of ln ratio / sd"])];
         for (column, value) in self.knowledge.singular_values.iter().enumerate() {
             if *value < limit && column > 0 {
                 break;

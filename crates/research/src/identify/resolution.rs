@@ -1,20 +1,20 @@
-//! What the data determine at the chosen point, and what the norm decides.
+//! Resolution at the chosen point: which numbers the data determine, and which the norm.
 
 use super::numbers::MOVABLE;
 use anyhow::{Result, anyhow};
 use nalgebra::DMatrix;
 
-/// Parts of a combination that are smaller are not shown.
+/// Smallest component of a combination that is shown.
 const SHOWN: f64 = 0.25;
 
-/// What the data say about the numbers at the chosen point.
+/// Singular values, resolution and standard errors at the chosen point.
 pub struct Resolution {
     pub singular_values: Vec<f64>,
-    /// Unit combinations of ln ratio / doubt that belong to them, one per column.
+    /// The right singular vectors, in units of prior standard deviations, one per column.
     combinations: DMatrix<f64>,
-    /// Part of each number that the data decide; the norm decides the rest.
+    /// Share of each number determined by the data; the rest is determined by the norm.
     pub resolution: Vec<f64>,
-    /// Formal standard errors of ln ratio / doubt: those of the wanted accuracies and the norm.
+    /// Formal standard errors, in prior standard deviations, from wanted accuracies and norm.
     pub errors: Vec<f64>,
 }
 
@@ -35,7 +35,7 @@ impl Resolution {
         })
     }
 
-    /// The larger parts of a combination.
+    /// The larger components of a combination.
     pub fn combination(&self, column: usize) -> Vec<(&'static str, f64)> {
         let mut parts: Vec<_> = MOVABLE
             .into_iter()
@@ -44,7 +44,7 @@ impl Resolution {
             .filter(|(_, part)| part.abs() > SHOWN)
             .collect();
         parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        // The sign of the whole is arbitrary: the largest part is shown positive.
+        // The sign is arbitrary: the largest component is shown positive.
         let sign = parts.first().map_or(1.0, |part| part.1.signum());
         parts.into_iter().map(|(key, part)| (key, sign * part)).collect()
     }

@@ -1,4 +1,4 @@
-//! The best that one inertia and free stations can do, and where the stations then are.
+//! Best fit with one inertia and free stations, and the stations of a set.
 
 use super::l_curve::{Model, Point};
 use super::levenberg_marquardt::CONVERGED;
@@ -8,8 +8,8 @@ use ahv::vehicle::VehicleDefinition;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
-/// What is free: where things sit, how much they weigh in pitch, how bending is damped and answered.
-/// Every coefficient of the rigid vehicle but the elevator's arm is the published one.
+/// Free numbers: stations, inertia, structural damping and elastic terms. The rigid coefficients are published,
+/// except the elevator's arm.
 const FREE: [&str; 8] = [
     "inertia.i_yy_kg_m2_per_m",
     MASS_CENTRE,
@@ -20,7 +20,7 @@ const FREE: [&str; 8] = [
     "inertia.structural_damping.2",
     "reference.elastic_scale",
 ];
-/// Holds nothing back, and keeps the normal equations regular.
+/// A negligible weight, which keeps the normal equations regular.
 const WEIGHT: f64 = 1e-4;
 
 const FOOT: f64 = 0.3048;
@@ -30,14 +30,14 @@ const FOOT: f64 = 0.3048;
 pub struct Stations {
     pub i_yy_kg_m2_per_m: f64,
     pub mass_centre_ft: [f64; 3],
-    /// Where gamma of Table 3 is read.
+    /// Station of gamma in Table 3.
     pub gamma_ft: [f64; 3],
-    /// Where the elevator's lift would have to act to make its moment.
+    /// Station at which the elevator's lift gives its moment.
     pub elevator_ft: f64,
 }
 
 impl Model {
-    /// From a chosen point on, with nothing else moved.
+    /// The best fit, starting from a chosen point, with all other numbers published.
     pub fn best(&self, chosen: &Point) -> Result<Point> {
         let held = MOVABLE.map(|(key, _)| !FREE.contains(&key));
         let mut start = chosen.fit.point.clone();
@@ -45,7 +45,7 @@ impl Model {
         self.fit(&start, &held, WEIGHT, CONVERGED)
     }
 
-    /// Where things sit in a set.
+    /// The stations of a set.
     pub fn stations(&self, set: &AeroData) -> Result<Stations> {
         let (mut mass_centre_ft, mut gamma_ft) = ([0.0; 3], [0.0; 3]);
         for ((centre, gamma), options) in
@@ -68,13 +68,13 @@ impl Model {
 }
 
 impl Stations {
-    /// In words.
+    /// Text of the stations.
     pub fn text(&self) -> String {
         let [_, even, slosh] = self.mass_centre_ft;
         let [_, even_gamma, slosh_gamma] = self.gamma_ft;
         format!(
             "inertia {:.3e} kg m^2/m; mass centre {:.1} (rigid), {even:.1} (even mass), {slosh:.1} ft \
-             (sloshing mass); gamma read at {even_gamma:.1} and {slosh_gamma:.1} ft; elevator's lift at \
+             (sloshing mass); gamma at {even_gamma:.1} and {slosh_gamma:.1} ft; elevator's lift at \
              {:.1} ft",
             self.i_yy_kg_m2_per_m, self.mass_centre_ft[0], self.elevator_ft
         )

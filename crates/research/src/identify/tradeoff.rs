@@ -1,4 +1,4 @@
-//! The trade-off of `xu2015` as a report shows it.
+//! The trade-off of `xu2015` for the report.
 
 use super::cells::Cell;
 use super::l_curve::{Model, Point};
@@ -10,12 +10,12 @@ use anyhow::{Result, anyhow};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-/// One compromise between the tables and the published numbers.
+/// One point of the trade-off between tables and published numbers.
 #[derive(Debug, Clone, Serialize)]
 pub struct Place {
-    /// Of the distance, against the misfit.
+    /// Weight of the distance relative to the misfit.
     pub weight: f64,
-    /// Sum over the numbers of (ln ratio / doubt)^2.
+    /// Sum over the numbers of (ln ratio / prior standard deviation)^2.
     pub distance: f64,
     /// Sum over the cells of (relative error / wanted accuracy)^2.
     pub misfit: f64,
@@ -29,15 +29,15 @@ pub struct Moved {
     pub identified: f64,
     /// A factor, or a difference in m.
     pub moved_by: String,
-    /// Whether it moves by a difference.
+    /// Whether it is adjusted by a difference.
     pub difference: bool,
-    /// The factor, or the difference, that costs 1.
+    /// Prior standard deviation, as a factor or a difference.
     pub doubt: f64,
-    /// Formal standard error, likewise.
+    /// Formal standard error, as a factor or a difference.
     pub error: f64,
-    /// Part that the data decide; the norm decides the rest.
+    /// Share determined by the data; the rest is determined by the norm.
     pub decided_by_data: f64,
-    /// The printed number that answers most, of those with a wanted accuracy.
+    /// The most sensitive of the fitted cells.
     pub strongest: String,
     /// Its relative change over that of the number.
     pub slope: f64,
@@ -47,16 +47,16 @@ pub struct Moved {
     pub best_moved_by: String,
 }
 
-/// All of it.
+/// The trade-off and the identified set.
 #[derive(Debug, Clone, Serialize)]
 pub struct TradeOff {
     pub places: Vec<Place>,
-    /// Which place is the knee.
+    /// Index of the knee.
     pub knee: usize,
-    /// The knee with small moves put back: what is committed.
+    /// The knee with small changes reset, which is the committed set.
     pub chosen: Place,
     pub numbers: Vec<Moved>,
-    /// The best that one inertia and free stations can do, and where they are.
+    /// The best fit with one inertia and free stations, and its stations.
     pub best: Place,
     pub best_stations: Stations,
     /// Its smallest and largest relative errors: short period, geometric means of the real zeros.
@@ -72,7 +72,7 @@ fn place(point: &Point) -> Place {
 }
 
 impl TradeOff {
-    /// Follows the trade-off from end to end; `tell` hears of every place on the way.
+    /// Computes the trade-off; `tell` is called for every place.
     pub fn new(tell: &dyn Fn(&Place)) -> Result<Self> {
         let model = Model::new(Data::embedded()?)?;
         let (path, knee) = model.path(&|point| tell(&place(point)))?;
@@ -121,7 +121,7 @@ impl TradeOff {
     }
 }
 
-/// A step in a coordinate's own measure: a factor, or a difference.
+/// A step of a coordinate, as a factor or a difference.
 fn scale(key: &str, step: f64) -> f64 {
     if moves_by_difference(key) { step } else { libm::exp(step) }
 }
@@ -133,7 +133,7 @@ fn errors(cells: &[Cell], values: &[f64], name: &str) -> [f64; 2] {
     sizes.fold([f64::INFINITY, 0.0], |[least, most], size| [least.min(size), most.max(size)])
 }
 
-/// The cell that answers a number most, and the relative change of it per unit of the coordinate.
+/// The cell that is most sensitive to a number, and its relative change per unit of the coordinate.
 fn strongest(model: &Model, sensitivity: &DMatrix<f64>, number: usize) -> (String, f64) {
     let wanted = model.cells.iter().filter_map(|cell| Some((cell, cell.wanted?)));
     let slopes = wanted.enumerate().map(|(row, (cell, wanted))| {

@@ -1,9 +1,9 @@
-//! Methods that lost: Runge-Kutta pairs to compare the vehicle's own methods with.
+//! Runge-Kutta pairs for comparison with the methods of the vehicle.
 
 use ahv::solve::Tableau;
 
 /// Dormand and Prince 5(4) (Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd
-/// ed., table II.5.2), the method behind many masters and toolboxes.
+/// ed., table II.5.2), the default method of many tools.
 pub const DOPRI5: Tableau<7> = Tableau {
     a: [
         [0.0; 7],
@@ -37,7 +37,7 @@ pub const DOPRI5: Tableau<7> = Tableau {
     error_order: 5,
 };
 
-/// Fehlberg 7(8), flown with the eighth order (NASA TR R-287, 1968, table X).
+/// Fehlberg 7(8), advanced with order 8 (NASA TR R-287, 1968, table X).
 pub const RKF78: Tableau<13> = {
     let mut a = [[0.0; 13]; 13];
     a[1][0] = 2.0 / 27.0;
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn the_losers_are_the_methods_they_claim_to_be() {
+    fn tableaus_satisfy_their_order_conditions() {
         meets_quadrature(&DOPRI5, 5);
         meets_quadrature(&RKF78, 8);
     }

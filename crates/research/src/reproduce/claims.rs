@@ -1,4 +1,4 @@
-//! What the paper concludes from figs 6 to 8, claim by claim.
+//! The conclusions of the paper from figs 6 to 8, claim by claim.
 
 mod criteria;
 
@@ -8,7 +8,7 @@ use super::verdict::Verdict;
 pub use criteria::{HARDLY, SLIGHT};
 use serde::Serialize;
 
-/// What the claims are tested on.
+/// Results on which the claims are tested.
 pub struct Evidence<'a> {
     pub fuel: &'a Sweep,
     pub damping: &'a Sweep,
@@ -16,7 +16,7 @@ pub struct Evidence<'a> {
     pub laws: &'a Laws,
 }
 
-/// A number at the start and at the end of the way that a claim speaks of, rad/s.
+/// A number at the start and at the end of the range of a claim, rad/s.
 #[derive(Debug, Clone, Serialize)]
 pub struct Measure {
     pub what: String,
@@ -24,7 +24,7 @@ pub struct Measure {
     pub end: f64,
     /// (end - start)/|start|.
     pub change: f64,
-    /// At every step of the way it stands on the side of its start where it ends.
+    /// Whether at every step it is on the same side of its start as at the end.
     pub steady: bool,
 }
 
@@ -33,14 +33,14 @@ pub struct Outcome {
     #[serde(flatten)]
     pub verdict: Verdict,
     pub measures: Vec<Measure>,
-    /// What a reader should know who believes the verdict.
+    /// A qualification of the verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
 }
 
 pub struct Claim {
     pub id: char,
-    /// Where the paper says it.
+    /// Place in the paper.
     pub source: &'static str,
     pub text: &'static str,
     pub test: fn(&Evidence) -> Outcome,

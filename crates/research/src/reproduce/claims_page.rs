@@ -1,4 +1,4 @@
-//! The claims as Markdown.
+//! The section on the claims, as Markdown.
 
 use super::claims::{HARDLY, SLIGHT, Tested};
 use super::markdown::{escape, percent, table, value};
@@ -22,10 +22,10 @@ pub fn render(claims: &[Tested]) -> String {
         }
     }
     text += &format!(
-        "\nOne rule serves all claims of a direction: it is reproduced if at every step of the way every root \
-         that is meant stands on the claimed side of its start. By how much is said with the verdict, and \
-         not judged: the paper prints no sizes. Where it has words for them, what changes by less than {:.0} % \
-         changes \"little\" or \"hardly\", and \"slightly\" ends at {:.0} %.\n\n",
+        "\nOne rule serves all claims of a direction: a claim is reproduced if, at every step of the sweep, every \
+         root concerned is on the claimed side of its start. The verdict states the size of the change but does \
+         not judge it, as the paper prints no sizes. Where the paper describes a size in words, \"little\" and \
+         \"hardly\" mean less than {:.0} %, and \"slightly\" at most {:.0} %.\n\n",
         100.0 * HARDLY,
         100.0 * SLIGHT
     );
@@ -43,7 +43,7 @@ pub fn render(claims: &[Tested]) -> String {
             })
         })
         .collect();
-    text += "The numbers behind them:\n\n";
+    text += "The numbers:\n\n";
     text += &table(["", "start", "end", "change", "what"], 1, &rows);
     text
 }

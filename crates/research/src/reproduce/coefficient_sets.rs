@@ -1,4 +1,4 @@
-//! The coefficient sets that a report is about.
+//! The coefficient sets of a report.
 
 use ahv::data::AeroSet;
 use ahv::flight::Setup;
@@ -9,12 +9,12 @@ use fmi_model::{Kind, table::find};
 #[derive(Debug, Clone, Copy)]
 pub struct Set {
     pub name: &'static str,
-    /// What the table of variables says about it.
+    /// Description in the table of variables.
     pub description: &'static str,
     pub aero: AeroSet,
 }
 
-/// All sets that the FMU offers. Taken from its table of variables, so a new one appears here.
+/// All sets of the FMU, from its table of variables.
 fn all(setup: &Setup) -> Result<Vec<Set>> {
     let Some(variable) = find::<Setup>("aero") else { bail!("the FMU has no parameter `aero`") };
     let Kind::Enumeration(_, items) = variable.kind else { bail!("`aero` is no enumeration") };
@@ -28,7 +28,7 @@ fn all(setup: &Setup) -> Result<Vec<Set>> {
         .collect()
 }
 
-/// The sets named; without a name that of the FMU.
+/// The sets with these names; without names, the default of the FMU.
 pub fn chosen(names: &[String]) -> Result<Vec<Set>> {
     let setup = Setup::new()?;
     let sets = all(&setup)?;

@@ -1,4 +1,4 @@
-//! Computes what a report needs, and nothing else.
+//! Computes the requested parts of a report.
 
 use super::claims::{Evidence, test};
 use super::coefficient_sets::Set;
@@ -27,7 +27,7 @@ use std::path::PathBuf;
 
 const CONFIGURATIONS: [Configuration; 3] =
     [Configuration::Rigid, Configuration::EvenMassBeam, Configuration::SloshBeam];
-/// The sweeps with their figures.
+/// The sweeps and their figures.
 const SWEEPS: [(Parameter, Part, &str, &str); 3] = [
     (Parameter::Fuel, Part::Fig6, "fig6", "Fig. 6: poles and zeros while fuel is burnt"),
     (Parameter::Damping, Part::Fig7, "fig7", "Fig. 7: poles and zeros over slosh damping"),
@@ -37,7 +37,7 @@ const SWEEPS: [(Parameter, Part, &str, &str); 3] = [
 pub struct Computation<'a> {
     parts: &'a [Part],
     figures: PathBuf,
-    /// The figures so far.
+    /// The figures drawn so far.
     pub drawn: RefCell<Files>,
     data: Data,
     published: Published,
@@ -98,7 +98,7 @@ impl<'a> Computation<'a> {
         if !self.wants(&[Part::Tradeoff]) {
             return Ok(None);
         }
-        errln!("xu2015: trade-off between misfit and distance, there and back");
+        errln!("xu2015: trade-off between misfit and distance, in both directions");
         let trade_off = TradeOff::new(&|place| {
             let Place { weight, distance, misfit } = place;
             errln!("  weight {weight:<8.2e} distance {distance:<10.4} misfit {misfit:.1}");
@@ -107,7 +107,7 @@ impl<'a> Computation<'a> {
         Ok(Some(trade_off))
     }
 
-    /// The vehicle of the best that one inertia and free stations can do.
+    /// The best fit with one inertia and free stations.
     fn best(&self, trade_off: &TradeOff) -> Result<[OperatingPoint; 3]> {
         let of = |configuration| {
             let options = VehicleOptions { configuration, aero: AeroSet::Xu2015, ..self.base };
@@ -206,8 +206,8 @@ impl<'a> Computation<'a> {
             file,
             title: "Fig. 3: bending stiffness along the vehicle".into(),
             caption:
-                "The paper's figure has no numbers. This is the smoothest stiffness that gives, with \
-                 ordinary tanks, both columns of Table 1; it is known to a factor of 1.2 amidships \
+                "The paper's figure has no numbers. This is the smoothest stiffness that gives both columns \
+                 of Table 1 with ordinary tanks. Its uncertainty is a factor of 1.2 amidships \
                  and of 3.4 at the ends (erratum 16)."
                     .into(),
         })
@@ -230,9 +230,10 @@ impl<'a> Computation<'a> {
         Ok(Figure {
             file,
             title: "Fig. 5: the first three mode shapes".into(),
-            caption: "Full tanks. The sloshing mass hangs on the middle of its tank and nearly \
-                      stands still in space while the beam moves past it."
-                .into(),
+            caption:
+                "Full tanks. Each sloshing mass is attached at the middle of its tank and hardly \
+                      moves in space while the beam moves relative to it."
+                    .into(),
         })
     }
 }
@@ -253,16 +254,16 @@ fn beside(table: Table, best: Option<Table>) -> Table {
 fn caption(sweep: &Sweep) -> String {
     let held = match sweep.parameter {
         Parameter::Fuel => {
-            "Sloshing frequencies follow from depth and gravity. Where those of both tanks meet, the \
-             poles turn aside and exchange damping; the zeros cross (enlarged in (e) and (f))."
+            "Sloshing frequencies follow from depth and gravity. Where those of the two tanks meet, the \
+             poles veer and exchange damping; the zeros cross (enlarged in (e) and (f))."
         }
         Parameter::Damping => "Half fuel; sloshing frequencies follow from depth and gravity.",
         Parameter::Frequency => "Half fuel; both tanks at the same frequency.",
     };
     format!(
         "{held} Panels (a) to (d) show the real part over the parameter, (e) to (h) the upper half \
-         of the s-plane. Open: start; filled: end. Branches are followed by what moves in them; the \
-         weakest link between two steps has a modal assurance of {:.3}.",
+         of the s-plane. Open: start; filled: end. Branches are tracked by their eigenvectors; the \
+         lowest modal assurance between two steps is {:.3}.",
         sweep.weakest_match
     )
 }

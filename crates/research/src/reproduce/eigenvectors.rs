@@ -1,4 +1,4 @@
-//! Eigenvectors: what moves in a mode.
+//! Eigenvectors by inverse iteration.
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -6,12 +6,12 @@ use nalgebra::{Complex, DMatrix, DVector};
 /// Distance from the eigenvalue at which the matrix is factored, over the size of the balanced
 /// matrix: small against the distance to the next eigenvalue, large against rounding.
 const SHIFT: f64 = 1e-9;
-/// Each step shrinks what belongs to other eigenvalues by the ratio of the distances.
+/// Inverse iterations; each reduces other components by the ratio of the distances to their eigenvalues.
 const STEPS: usize = 3;
 
-/// The eigenvector to a known eigenvalue, by inverse iteration.
+/// The eigenvector of a known eigenvalue, by inverse iteration.
 pub fn direction(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<f64>> {
-    // Heights in km beside angles in mrad: without balancing the small entries would drown.
+    // Entries differ by many orders of magnitude (m, rad), so the matrix is balanced.
     let mut balanced = matrix.clone();
     let scale = balance_parlett_reinsch(&mut balanced);
     let shift = value + SHIFT * balanced.norm();
@@ -21,7 +21,7 @@ pub fn direction(matrix: &DMatrix<f64>, value: Complex<f64>) -> DVector<Complex<
         Complex::from(balanced[(row, column)]) - diagonal
     });
     let factors = shifted.lu();
-    // No eigenvector of a real system is orthogonal to this but by accident.
+    // A start vector that is hardly ever orthogonal to the eigenvector.
     let mut vector = DVector::from_fn(n, |row, _| Complex::new(1.0, 0.1 * (row + 1) as f64));
     for _ in 0..STEPS {
         if let Some(next) = factors.solve(&vector) {

@@ -1,13 +1,13 @@
-//! How well the curves of `shock_expansion` fit, read from the head of its data file.
+//! Errors of the fit `shock_expansion`, read from the header of its data file.
 
 use ahv::data::SHOCK_EXPANSION;
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
-/// What `cargo ahv fit` wrote about its fit.
+/// The table of errors that `cargo ahv fit` wrote.
 #[derive(Debug, Clone, Serialize)]
 pub struct FitErrors {
-    /// Where the model was sampled.
+    /// Sampling grid of the model.
     pub samples: String,
     pub coefficients: Vec<String>,
     pub rows: Vec<Row>,
@@ -22,7 +22,7 @@ pub struct Row {
     pub values: Vec<f64>,
 }
 
-/// Cells are two spaces apart or more.
+/// Cells are separated by at least two spaces.
 fn cells(line: &str) -> Vec<&str> {
     line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect()
 }
@@ -30,7 +30,7 @@ fn cells(line: &str) -> Vec<&str> {
 impl FitErrors {
     pub fn embedded() -> Result<Self> {
         Self::parse(SHOCK_EXPANSION.text)
-            .ok_or_else(|| anyhow!("shock_expansion.toml: no table of errors in its head"))
+            .ok_or_else(|| anyhow!("shock_expansion.toml: no table of errors in its header"))
     }
 
     fn parse(text: &str) -> Option<Self> {
@@ -58,7 +58,7 @@ impl FitErrors {
         })
     }
 
-    /// A row over the range of the values, per cent.
+    /// A row relative to the range of the values, per cent.
     pub fn percent(&self, row: &Row) -> Option<Vec<f64>> {
         let range = self.rows.iter().find(|row| row.what.starts_with("range"))?;
         Some(row.values.iter().zip(&range.values).map(|(v, range)| 100.0 * v / range).collect())

@@ -1,18 +1,18 @@
-//! The report as one HTML file that needs no other.
+//! The report as one self-contained HTML file.
 
 use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, TextMergeStream, html};
 
 const STYLE: &str = include_str!("report.css");
 
-/// From Markdown; `svg` gives the drawing to a link in it.
+/// Renders Markdown; `svg` gives the drawing of a link.
 pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>) -> String {
     let mut contents = String::new();
     let mut events = Vec::new();
     let mut heading: Option<String> = None;
     let mut image = false;
-    // A number and its sign of per cent stay on one line.
+    // A number and its per cent sign stay on one line.
     let markdown = &markdown.replace(" %", "\u{a0}%");
-    // Escaped letters arrive one by one: a verdict has to be whole.
+    // Escaped letters are separate events; merged, so that a verdict is one text.
     for event in TextMergeStream::new(Parser::new_ext(markdown, Options::ENABLE_TABLES)) {
         match event {
             Event::Start(Tag::Image { dest_url, .. }) => {
@@ -20,7 +20,7 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
                 let drawing = svg(&dest_url).unwrap_or_default();
                 events.push(Event::InlineHtml(format!("<span class=\"figure\">{drawing}").into()));
             }
-            // Its text is the title above it, and a drawing needs no replacement text.
+            // The alternative text of a drawing repeats the title above it.
             Event::End(TagEnd::Image) => {
                 image = false;
                 events.push(Event::InlineHtml("</span>".into()));
@@ -82,7 +82,7 @@ fn entry(contents: &mut String, level: usize, words: &str, events: &[Event]) {
     }
 }
 
-/// Class of a text that starts with the mark of a verdict.
+/// CSS class of a text that starts with the symbol of a verdict.
 fn mark(words: &str) -> Option<&'static str> {
     match words.chars().next()? {
         '✓' => Some("yes"),

@@ -1,27 +1,27 @@
-//! The pages on identified and fitted numbers, as Markdown.
+//! The sections on identified and fitted numbers, as Markdown.
 
 use super::fit_errors::FitErrors;
 use super::markdown::{escape, percent, table, value};
 use crate::identify::{Moved, TradeOff};
 
-/// Which numbers of `xu2015` moved, and what more would have cost.
+/// Section on the identification of `xu2015`.
 pub fn trade_off(of: &TradeOff) -> String {
     let (knee, end) = (&of.places[of.knee], &of.places[of.places.len() - 1]);
     let [poles, zeros] = of.best_errors;
     let elastic = of.numbers.iter().find(|number| number.key == "reference.elastic_scale");
     let mut text = format!(
-        "## How xu2015 was found\n\n![Trade-off](figures/tradeoff.svg)\n\n\
-         Each point is the vehicle with the least misfit + weight × distance. Misfit: sum over the cells \
+        "## Identification of xu2015\n\n![Trade-off](figures/tradeoff.svg)\n\n\
+         Each point minimises misfit + weight × distance. Misfit: sum over the cells \
          of (relative error / wanted accuracy)². Distance from parker2007: sum over the numbers of \
-         (ln ratio / doubt)². The knee is the first sharpest bend, coming from the published numbers: \
-         weight {}, distance {}, misfit {}. From there to the far end the misfit falls to {}, for {:.0} \
-         times the distance. Along a dashed piece the compromise changes from one valley to another. Moves of less \
-         than 1 % are put back, which gives the set: distance {}, misfit {}.\n\n\
-         **What one inertia and free stations can do.** The second column of Tables 2 and 3 frees the inertia, the \
+         (ln ratio / prior standard deviation)². The knee is the first local maximum of curvature, starting from the \
+         published numbers: weight {}, distance {}, misfit {}. At the far end the misfit is {}, at {:.0} \
+         times the distance. Dashed lines connect different local minima. Numbers that change by less \
+         than 1 % are reset to the published ones, which gives the set: distance {}, misfit {}.\n\n\
+         **Best fit with one inertia and free stations.** The second column of Tables 2 and 3 fits the inertia, the \
          mass centre of the beam, the stations of γ and of the elevator, structural damping and the size of \
-         the elastic terms, and keeps every other coefficient published: misfit {}, at {} times the derived \
-         elastic terms. Its short-period poles are {:.1} to {:.1} % off, the geometric means of the real \
-         zeros {:.1} to {:.1} %. Where things sit:\n\n* xu2015: {}\n* free stations: {}\n\n**Moved numbers**\n\n",
+         the elastic terms; all other coefficients are published: misfit {}, with {} times the derived \
+         elastic terms. The errors of its short-period poles are {:.1} to {:.1} %, of the geometric means of the real \
+         zeros {:.1} to {:.1} %. Stations:\n\n* xu2015: {}\n* free stations: {}\n\n**Changed numbers**\n\n",
         value(knee.weight),
         value(knee.distance),
         value(knee.misfit),
@@ -58,17 +58,17 @@ pub fn trade_off(of: &TradeOff) -> String {
         "",
         "parker2007",
         "xu2015",
-        "moved by",
-        "doubt",
+        "change",
+        "prior standard deviation",
         "standard error",
-        "decided by the tables",
+        "determined by the tables",
         "far end",
         "free stations",
-        "1 % or 1 cm more moves most",
+        "most sensitive cell, per 1 % or 1 cm",
     ];
     let rows: Vec<_> = moved.iter().map(row).collect();
     text += &table(head, 1, &rows);
-    text += "**Numbers that stay**\n\n";
+    text += "**Unchanged numbers**\n\n";
     let rows: Vec<[String; 6]> = still
         .iter()
         .map(|number| {
@@ -84,7 +84,7 @@ pub fn trade_off(of: &TradeOff) -> String {
             the published number.\n\n"
 }
 
-/// A factor, or a difference with its sign and unit.
+/// A factor, or a difference with sign and unit.
 fn by_how_much(number: &Moved, by: &str) -> String {
     match (number.difference, by.strip_prefix('-')) {
         (false, _) => format!("× {by}"),
@@ -97,7 +97,7 @@ fn within(number: &Moved, size: f64) -> String {
     if number.difference { format!("± {size:.2} m") } else { format!("×/÷ {size:.3}") }
 }
 
-/// How well the curves of `shock_expansion` fit.
+/// Section on the errors of the fit `shock_expansion`.
 pub fn fit(fit: &FitErrors) -> String {
     let mut text = format!(
         "## How well the curves of shock\\_expansion fit\n\n{} In brackets: per cent of the range of \
@@ -120,5 +120,5 @@ pub fn fit(fit: &FitErrors) -> String {
         })
         .collect();
     text += &table(["", "points", "choked", a, b, c, d], 0, &rows);
-    text + "From `cargo ahv fit`, as its data file states it.\n\n"
+    text + "From `cargo ahv fit`, as stated in its data file.\n\n"
 }

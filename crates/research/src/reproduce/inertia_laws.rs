@@ -8,12 +8,12 @@ use ahv::vehicle::{Configuration, VehicleOptions, structure};
 use anyhow::{Result, anyhow};
 use serde::Serialize;
 
-/// Levels of fuel on the way, after the first.
+/// Fuel levels after the first.
 const LEVELS: usize = 20;
-/// Halvings of a bracket: to three digits and more.
+/// Bisection steps; enough for three digits.
 const HALVINGS: usize = 16;
 
-/// How inertia and mass centre go with fuel.
+/// Whether inertia and mass centre are constant as fuel burns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Held {
     inertia: bool,
@@ -21,9 +21,9 @@ struct Held {
 }
 
 const LAWS: [(&str, Held); 3] = [
-    ("inertia as that of the densities", Held { inertia: false, centre: false }),
-    ("inertia held", Held { inertia: true, centre: false }),
-    ("inertia and mass centre held", Held { inertia: true, centre: true }),
+    ("inertia of the densities", Held { inertia: false, centre: false }),
+    ("constant inertia", Held { inertia: true, centre: false }),
+    ("constant inertia and mass centre", Held { inertia: true, centre: true }),
 ];
 
 /// The unstable short-period pole under one law.
@@ -46,8 +46,8 @@ pub struct Laws {
     pub laws: Vec<Law>,
     /// Inertia of the empty vehicle over that of the full one, by the densities.
     pub empty_over_full: f64,
-    /// The same for a pole that does not move, and for one at the end of "slightly"; none if no
-    /// inertia between nothing and twice the full one gives it.
+    /// The same ratio for a pole that does not move, and for one that moves as far as "slightly" allows;
+    /// `None` if no inertia up to twice the full one gives it.
     pub still: Option<f64>,
     pub slight: Option<f64>,
 }
@@ -64,8 +64,7 @@ fn properties(data: &Data, options: &VehicleOptions) -> Result<MassProperties> {
 }
 
 impl Vehicle<'_> {
-    /// The pole at a level of fuel; `inertia` over that of full tanks, where it is not that of the
-    /// densities.
+    /// The pole at a fuel level; `inertia` is the ratio to full tanks, by default that of the densities.
     fn pole(&self, fuel: f64, inertia: Option<f64>, centre: bool) -> Result<f64> {
         let mut options = VehicleOptions { fuel_fraction: fuel, ..self.base };
         let own = properties(self.data, &options)?;
@@ -82,7 +81,7 @@ impl Vehicle<'_> {
 
     /// The inertia of the empty vehicle over that of the full one at which the pole has this value.
     fn inertia_for(&self, pole: f64) -> Option<f64> {
-        // Less inertia is a faster pole. Below some inertia there is no body.
+        // The pole is faster with less inertia. Below some inertia no body exists.
         let above = |ratio: f64| self.pole(0.0, Some(ratio), false).is_ok_and(|found| found > pole);
         let (mut small, mut large) = (self.own_ratio().ok()?, 2.0);
         if above(large) || !above(small) {
@@ -102,7 +101,7 @@ impl Vehicle<'_> {
 }
 
 impl Laws {
-    /// `slight` ends the range of "slightly".
+    /// `slight` is the largest change that counts as "slightly".
     pub fn new(data: &Data, base: &VehicleOptions, slight: f64) -> Result<Self> {
         let base =
             VehicleOptions { configuration: Configuration::SloshBeam, fuel_fraction: 1.0, ..*base };

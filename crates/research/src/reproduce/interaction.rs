@@ -1,4 +1,4 @@
-//! What the sloshing liquid does to the flexible modes, the short period and the zeros.
+//! Effect of the sloshing liquid on flexible modes, short period and zeros.
 
 use super::operating_point::OperatingPoint;
 use super::roots::{Name, Root, find};
@@ -11,20 +11,20 @@ use serde::Serialize;
 
 /// Sloshing frequencies, rad/s, at which zeros are quoted.
 const QUOTED: [f64; 5] = [2.0, 5.0, 10.0, 20.0, 30.0];
-/// What a limit at the end of the flight is of.
+/// Name of the vehicle with empty tanks.
 pub const EMPTY: &str = "sloshing mass, empty tanks";
-/// rad/s: the first flexible mode and the liquid share their energy there.
+/// Sloshing frequency at which the first flexible mode and the liquid share their energy, rad/s.
 pub const HYBRID: f64 = 20.0;
 
-/// A pole or zero with the two slosh modes in the equations of flight, and without.
+/// A pole or zero with and without the two slosh modes in the equations of motion.
 #[derive(Debug, Clone, Serialize)]
 pub struct Dropped {
     pub name: Name,
     pub kind: &'static str,
     pub kept: [f64; 2],
-    /// None for what is gone.
+    /// `None` for those of the slosh modes.
     pub dropped: Option<[f64; 2]>,
-    /// Distance of the two over the frequency.
+    /// Distance between the two over the frequency.
     pub moved: Option<f64>,
 }
 
@@ -45,7 +45,7 @@ pub struct RealZeros {
     pub sum: f64,
 }
 
-/// What instability and non-minimum phase leave to a loop.
+/// Limits on a feedback loop by unstable pole and right-half-plane zero.
 #[derive(Debug, Clone, Serialize)]
 pub struct Limit {
     pub of: &'static str,
@@ -57,7 +57,7 @@ pub struct Limit {
     pub peak: f64,
 }
 
-/// How far a pole is from its zero: what a loop around V and gamma sees of a mode.
+/// Distance of a pole from its zero, which determines how much a loop on V and gamma affects the mode.
 #[derive(Debug, Clone, Serialize)]
 pub struct Dipole {
     pub name: Name,
@@ -150,7 +150,7 @@ impl Interaction {
             .filter_map(|(name, point)| real_zeros(name.into(), &point.zeros))
             .collect();
         let [_, without] = slosh.without_slosh();
-        zeros.extend(real_zeros("sloshing mass, slosh modes dropped".into(), &without));
+        zeros.extend(real_zeros("sloshing mass, without slosh modes".into(), &without));
         let step_of = |name| frequency.zero(name);
         if let (Some(right), Some(left)) = (step_of(Name::RightZero), step_of(Name::LeftZero)) {
             zeros.extend(QUOTED.into_iter().map(|at| {
@@ -196,7 +196,7 @@ impl Interaction {
         })
     }
 
-    /// By how much a root moves if the slosh modes are dropped.
+    /// Relative change of a root without the slosh modes.
     pub fn moved(&self, order: usize, kind: &str, name: Name) -> f64 {
         let roots = &self.orders[order].roots;
         let found = roots.iter().find(|root| root.kind == kind && root.name == name);

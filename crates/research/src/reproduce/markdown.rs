@@ -9,7 +9,7 @@ use ahv_tool::table::number;
 /// The second column of Tables 2 and 3.
 const BEST: &str = "one inertia, free stations";
 
-/// Text that stays as it is: nothing in it becomes emphasis, a cell or HTML.
+/// Escapes text, so that nothing in it becomes emphasis, a cell or HTML.
 pub fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -21,8 +21,8 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
-/// A table of text; the cells are escaped here. All columns but the first and the last `words` are
-/// numbers and stand to the right.
+/// A table; the cells are escaped here. Columns between the first and the last `words` are numbers, aligned
+/// to the right.
 pub fn table<const N: usize>(head: [&str; N], words: usize, rows: &[[String; N]]) -> String {
     let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
     let mut text = line(&head.map(escape));
@@ -37,7 +37,7 @@ pub fn table<const N: usize>(head: [&str; N], words: usize, rows: &[[String; N]]
     text + "\n"
 }
 
-/// As typography has it.
+/// Replaces hyphens of a number by minus signs.
 pub fn minus(text: String) -> String {
     text.replace("e-", "e\u{2212}").replacen('-', "\u{2212}", usize::from(text.starts_with('-')))
 }
@@ -65,7 +65,7 @@ pub fn percent(change: f64) -> String {
         _ => 2,
     };
     let text = format!("{percent:+.digits$}");
-    // What rounds to zero has no sign.
+    // A number that rounds to zero has no sign.
     let zero = !text.contains(|c| matches!(c, '1'..='9'));
     let text = if zero { text.replace(['+', '-'], "") } else { text };
     text.replace('-', "\u{2212}") + " %"
@@ -76,15 +76,15 @@ pub fn complex([re, im]: [f64; 2]) -> String {
 }
 
 pub fn render(report: &Report) -> String {
-    let mut text = format!("# The paper's results beside ours\n\n{}\n\n", escape(PAPER));
+    let mut text = format!("# The paper's results compared with ours\n\n{}\n\n", escape(PAPER));
     text += &format!(
-        "Computed by ahv {}. All values in rad/s unless said otherwise; all quantities per metre of \
+        "Computed by ahv {}. Values are in rad/s unless stated otherwise; quantities are per metre of \
          vehicle width. Difference is ours/paper \u{2212} 1: positive if ours is larger in size.\n\n",
         report.version
     );
     text += &summary(report);
     if let Some(table) = &report.table1 {
-        text += "## Table 1\n\nNatural frequencies depend on no coefficient set.\n\n";
+        text += "## Table 1\n\nNatural frequencies do not depend on the coefficient set.\n\n";
         text += &cells(table);
     }
     text += &figures(&report.figures);
@@ -92,7 +92,7 @@ pub fn render(report: &Report) -> String {
         text += &set_report(set, report.sets.len() > 1);
     }
     if !report.veering.is_empty() {
-        text += "## Slosh and beam: which mode is which\n\n![Veering](figures/veering.svg)\n\n";
+        text += "## Veering of slosh and bending modes\n\n![Veering](figures/veering.svg)\n\n";
         text += &interaction_text::structure(&report.veering);
     }
     for set in &report.sets {
@@ -115,7 +115,7 @@ pub fn render(report: &Report) -> String {
     text
 }
 
-/// How the verdicts are spread.
+/// Section with the number of each verdict.
 fn summary(report: &Report) -> String {
     let row = |name: String, counts: [usize; RANKS.len()]| -> [String; 1 + RANKS.len()] {
         let mut cells = vec![name];
@@ -143,10 +143,10 @@ fn summary(report: &Report) -> String {
     let aims: Vec<_> =
         Aim::ALL.iter().map(|aim| format!("{} {} %", aim.of_what(), aim.percent())).collect();
     format!(
-        "## Verdicts\n\n{}A number is reproduced within the limit of its kind: {}. It is near within \
-         {NEAR} times that; beyond, only its sign is right, or nothing. The limits are the same for \
-         every coefficient set, cell and column. \"Not by eqs (3)-(4)\" stands where an erratum derives, and a \
-         test proves, that no vehicle under these equations has the number.\n\n",
+        "## Verdicts\n\n{}A number is reproduced if it is within the limit of its kind: {}. It is near within \
+         {NEAR} times that limit; beyond, at most its sign is right. The limits are the same for \
+         every coefficient set, cell and column. \"Not by eqs (3)-(4)\" means that no vehicle under these \
+         equations has the number, as an erratum derives and a test proves.\n\n",
         table(["", a, b, c, d, e], 0, &rows),
         aims.join(", ")
     )
@@ -195,9 +195,9 @@ fn rows(cells: &[&Cell]) -> String {
     table(head, 1, &cells.iter().map(with_best).collect::<Vec<_>>())
 }
 
-/// In full, once, what the cells say in two words.
+/// Explains the reasons that the verdicts give in two words.
 fn reasons(tables: &[Table]) -> String {
-    let mut text = "**The reasons in full**\n\n".to_string();
+    let mut text = "**Reasons**\n\n".to_string();
     for (short, long) in REASONS {
         let given = |cell: &Cell| cell.verdict.because() == Some(short);
         if tables.iter().flat_map(|table| table.cells.iter().chain(&table.means)).any(given) {
@@ -244,7 +244,7 @@ fn set_report(set: &SetReport, many: bool) -> String {
 }
 
 fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> String {
-    let mut text = format!("## Slosh, beam and short period together: {}\n\n", escape(name));
+    let mut text = format!("## Interaction of slosh, beam and short period: {}\n\n", escape(name));
     text += &interaction_text::coupling(interaction);
     for order in &interaction.orders {
         let rows: Vec<[String; 5]> = order
@@ -255,15 +255,15 @@ fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> S
                     root.name.to_string(),
                     root.kind.to_string(),
                     complex(root.kept),
-                    root.dropped.map_or("gone".into(), complex),
+                    root.dropped.map_or("none".into(), complex),
                     root.moved.map_or(String::new(), |moved| format!("{:.2} %", 100.0 * moved)),
                 ]
             })
             .collect();
-        text += &format!("**15 states and 11: {}**\n\n", order.title);
-        text += &table(["", "", "kept", "dropped", "moved by"], 0, &rows);
+        text += &format!("**With slosh modes (15 states) and without (11): {}**\n\n", order.title);
+        text += &table(["", "", "15 states", "11 states", "change"], 0, &rows);
     }
-    text += "**The real pair of zeros**\n\n";
+    text += "**Real zeros**\n\n";
     let rows: Vec<[String; 4]> = interaction
         .zeros
         .iter()
@@ -275,7 +275,7 @@ fn interaction_page(name: &str, interaction: &Interaction, report: &Report) -> S
     text
 }
 
-/// The errata, one level deeper than in their own file.
+/// The errata, headings one level lower.
 fn errata() -> String {
     ERRATA
         .lines()

@@ -9,16 +9,16 @@ use ahv::vehicle::{Body, V, Vehicle, VehicleDefinition, VehicleOptions, eta, eta
 use anyhow::{Context, Result};
 use nalgebra::DMatrix;
 
-/// Whose flight-path angle is the second output.
+/// The flight-path angle that is the second output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Gamma {
-    /// That of the point of the body where Table 3 reads it.
+    /// That of the point of the body that Table 3 uses.
     Printed,
     /// That of the mean axes, gamma of eq. (3).
     MeanAxes,
 }
 
-/// All that the report needs to know of one vehicle.
+/// A trimmed and linearised vehicle.
 #[derive(Debug, Clone)]
 pub struct OperatingPoint {
     pub vehicle: Vehicle,
@@ -61,7 +61,7 @@ impl OperatingPoint {
         Ok(Self { vehicle, linear, metric, poles, zeros })
     }
 
-    /// Poles and zeros if the slosh modes are left out of the equations of flight.
+    /// Poles and zeros without the slosh modes.
     pub fn without_slosh(&self) -> [Vec<Root>; 2] {
         let kept = self.linear.a.nrows().min(eta(FLEXIBLE));
         let linear = LinearModel {
@@ -93,8 +93,8 @@ fn named_roots(
     [poles, zeros]
 }
 
-/// The states while both outputs are held, from all states but V and gamma: V rests, and gamma of the
-/// mean axes moves against what the body under the sensor does.
+/// Map from all states but V and gamma to all states with both outputs held: V is constant, and gamma of the
+/// mean axes compensates the motion of the sensor relative to them.
 fn held(c: &DMatrix<f64>) -> DMatrix<f64> {
     let [_, gamma] = OUTPUT_STATES;
     let hidden: Vec<usize> = (0..c.ncols()).filter(|row| !OUTPUT_STATES.contains(row)).collect();
@@ -106,9 +106,9 @@ fn held(c: &DMatrix<f64>) -> DMatrix<f64> {
     held
 }
 
-/// The kinetic energy of a motion is half the squared length of metric times state. It is that of the
-/// mass matrix in which the modes are orthogonal: the beam's density carries what bends, and mass,
-/// mass centre and inertia of the body ([`ahv::rigid_body`]) its mean translation and rotation.
+/// Metric of the kinetic energy, which is half the squared length of metric times state. Its mass matrix is that
+/// in which the modes are orthogonal: density for bending; mass, mass centre and inertia of the body
+/// ([`ahv::structure`]) for its mean translation and rotation.
 fn metric(vehicle: &Vehicle, trim: &Trim, body: &Body) -> Metric {
     let Body { beam, oscillators, modes, .. } = body;
     let elements = beam.elements();

@@ -1,4 +1,4 @@
-//! Where the printed digits come from: numbers that speak for and against it.
+//! Origin of the printed digits: evidence for and against hypotheses.
 
 use super::operating_point::{Gamma, OperatingPoint};
 use super::roots::{Name, find};
@@ -14,16 +14,16 @@ use anyhow::{Result, anyhow};
 use nalgebra::{Complex, Matrix2, Vector2};
 use serde::Serialize;
 
-/// With it the published set gives the printed rigid column, kg m^2/m.
+/// Inertia with which the published set gives the printed rigid column, kg m^2/m.
 pub const INERTIA: f64 = 6.4e5;
-/// The printed one.
+/// Printed inertia, kg m^2/m.
 const PRINTED_INERTIA: f64 = 2.224e5;
-/// Elastic terms, over those derived.
+/// Factors on the derived elastic terms.
 const ELASTIC: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 /// Mass centre aft of 55 ft, m.
 const SHIFTS: [f64; 4] = [0.0, 1.0, 2.0, 3.0];
-/// What makes the rigid zeros unequal: part of theta in the output, s; the same in the equation of
-/// gamma, from q; pitch damping, 1/s.
+/// Changes that make the rigid zeros unequal: share of theta in the output, also used as lift due to q in the
+/// gamma equation, s; pitch damping, 1/s.
 pub const OUTPUT: f64 = 0.0044;
 pub const PITCH_DAMPING: f64 = -1.79;
 
@@ -69,7 +69,7 @@ impl Case {
     }
 }
 
-/// Inertia and mass centre that one column asks for, by its poles and real zeros.
+/// Inertia and mass centre of one column, from its poles and real zeros.
 #[derive(Debug, Clone, Serialize)]
 pub struct Asked {
     pub column: &'static str,
@@ -80,17 +80,17 @@ pub struct Asked {
 #[derive(Debug, Clone, Serialize)]
 pub struct Origin {
     pub printed: [Case; 3],
-    /// Published set, the inertia of the poles, mass centre at 55 ft.
+    /// Published set with [`INERTIA`] and the mass centre at 55 ft.
     pub rigid: Case,
     pub inertias: Vec<Case>,
     pub printed_inertia: Vec<Case>,
     pub elastic: Vec<Case>,
     pub shifts: Vec<Case>,
     pub asked: Vec<Asked>,
-    /// The even column of the default set, by mean axes and by the body.
+    /// The even column of the default set, with gamma of the mean axes and of the body.
     pub gamma: [Case; 2],
     pub unequal: Vec<Case>,
-    /// The lift by q that would do it, as a coefficient.
+    /// Coefficient of the lift due to q that gives the printed zeros.
     pub lift_q: f64,
 }
 
@@ -144,7 +144,7 @@ impl Lab<'_> {
                 Ok((off(beside)? - here) / step)
             };
             let jacobian = Matrix2::from_columns(&[slope(0)?, slope(1)?]);
-            at -= jacobian.lu().solve(&here).ok_or_else(|| anyhow!("no inertia asked for"))?;
+            at -= jacobian.lu().solve(&here).ok_or_else(|| anyhow!("no inertia found"))?;
         }
         let definition = self.definition(column, libm::exp(at[0]), 1.0, at[1]);
         let (beam, oscillators) = definition.structure()?;
@@ -228,7 +228,7 @@ impl Origin {
             unequal: vec![
                 Case::rigid("eqs (3)-(4)", system)?,
                 Case::rigid("output γ − 0.0044 θ", &output)?,
-                Case::rigid("lift by q", &lift)?,
+                Case::rigid("lift due to q", &lift)?,
                 Case::rigid("pitch damping", &damped)?,
             ],
             lift_q,

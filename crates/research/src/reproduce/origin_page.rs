@@ -1,4 +1,4 @@
-//! Where the printed digits come from, as Markdown.
+//! The section on the origin of the printed digits, as Markdown.
 
 use super::markdown::{escape, minus, percent, printed, table, value};
 use super::origin::{Asked, Case, OUTPUT, Origin, PITCH_DAMPING};
@@ -10,7 +10,7 @@ fn pair([right, left]: [f64; 2]) -> String {
     format!("{}, {}", value(right), value(left))
 }
 
-/// Poles, zeros and what each of them says of the vehicle.
+/// Table of short-period poles, real zeros and their products.
 fn cases<'a>(head: &str, cases: impl IntoIterator<Item = &'a Case>) -> String {
     let row = |case: &Case| {
         [
@@ -70,11 +70,11 @@ fn peak(cases: &[Case]) -> f64 {
 fn hypothesis() -> String {
     "## Where the printed digits come from\n\n\
      **Hypothesis.** All three columns come from the published curve fits (parker2007) with a pitch inertia near \
-     6.4·10⁵ kg m²/m, which is printed nowhere. The beam has its mass centre 8 to 11 ft further aft than the \
-     rigid body and the printed densities have it. γ of Table 3 belongs to a point of the beam near \
-     that mass centre, not to the mean axes of eq. (3). No source says so: this is inferred from the digits. \
-     Every number below is computed by this command with the published coefficients, unless it says \
-     otherwise.\n\n"
+     6.4·10⁵ kg m²/m, which is not printed. In the flexible columns the mass centre is 8 to 11 ft further aft than \
+     that of the rigid body and of the printed densities. γ of Table 3 is that of a point of the beam near \
+     this mass centre, not of the mean axes of eq. (3). No source says so: it is inferred from the digits. \
+     Unless stated otherwise, this command computes every number below with the published \
+     coefficients.\n\n"
         .into()
 }
 
@@ -82,8 +82,8 @@ fn poles(origin: &Origin) -> String {
     let [rigid, even, slosh] = &origin.printed;
     let off = |i: usize| percent(origin.rigid.poles[i] / rigid.poles[i] - 1.0);
     let mut text = format!(
-        "**Evidence: the rigid column.** It is the published set at 55 ft with that inertia: the short-period \
-         poles are {} and {} off, the geometric mean of the real zeros {}.\n\n",
+        "**Evidence: the rigid column.** The published set with the mass centre at 55 ft and this inertia gives the \
+         short-period poles to {} and {}, the geometric mean of the real zeros to {}.\n\n",
         off(0),
         off(1),
         percent(size(origin.rigid.zeros) / size(rigid.zeros) - 1.0)
@@ -97,39 +97,40 @@ fn poles(origin: &Origin) -> String {
         even.zero_product() / rigid.zero_product(),
     );
     text += &cases("printed", [rigid, even, slosh]);
-    text += "*Another inertia* scales both products alike, so it is not that (rigid body):\n\n";
+    text +=
+        "*Another inertia* scales both products alike, so it is not the cause (rigid body):\n\n";
     text += &cases("inertia", &origin.inertias);
     text += &format!(
-        "*Elastic terms* up to 20 times those derived do not do it. The unstable pole of the even column comes to {} at most, \
-         printed is {}; and the printed frequencies of that column are those of Table 1, without air, to \
-         every digit there:\n\n",
+        "*Elastic terms* up to 20 times the derived ones are not enough: the unstable pole of the even column reaches {} at \
+         most, the printed one is {}. Moreover, the printed frequencies of that column agree with Table 1, without \
+         air, to every digit:\n\n",
         value(peak(&origin.elastic)),
         value(even.poles[0])
     );
     let row = |case: &Case| [case.what.clone(), pair(case.poles), value(case.pole_product())];
     let rows: Vec<_> = origin.elastic.iter().map(row).collect();
     text += &table(["elastic terms", "short period", "product"], 0, &rows);
-    text += "*A mass centre further aft* does: it lengthens the arm of the normal force. The zeros hardly \
-             notice: where γ is held the normal force rests, and what turns the vehicle is a couple, the same \
-             about every point (even mass):\n\n";
+    text += "*A mass centre further aft* is: it lengthens the arm of the normal force. The zeros hardly \
+             change: with γ held the normal force is constant, and the vehicle is turned by a couple, which is \
+             the same about every point (even mass):\n\n";
     text += &cases("mass centre aft by", &origin.shifts);
-    text += "Inertia and mass centre that each column asks for, by its two products alone:\n\n";
+    text += "Inertia and mass centre of each column, from its two products alone:\n\n";
     text + &asked(&origin.asked)
 }
 
 fn outputs(origin: &Origin) -> String {
     let mut text = "**Evidence: the zeros are those of the body.** Even column of xu2015. With γ of the mean axes \
-                    each pair of zeros stays near its pole; read on the body, near the mass centre, where the \
-                    paper fixes its beam, the pairs move up by most of the way to the printed ones:\n\n"
+                    each pair of zeros stays near its pole. With γ of the body near the mass centre, where the \
+                    paper fixes its beam, the zeros come much nearer to the printed ones:\n\n"
         .to_string();
     text += &zeros(origin);
-    text += "**Unequal real zeros: what would give them.** No vehicle under eqs (3)-(4) has them without a beam \
-             (erratum 14); with one, the pair is unequal by a thousandth. What does give them, rigid body:\n\n";
+    text += "**Unequal real zeros: possible causes.** Under eqs (3)-(4) the real zeros of a rigid vehicle are symmetric \
+             (erratum 14); a beam makes them unequal by a thousandth. Changes that do give them, rigid body:\n\n";
     text += &unequal(origin);
     text + &format!(
-        "The lift by q is γ' = −{OUTPUT} q, a coefficient C_Lq of {}, which no vehicle has. Pitch \
-         damping (M_q = {} 1/s) gives the zeros and spoils the poles. So a part of θ in the output, by \
-         intent or by mistake, is the least unlikely. It is not modelled: nothing printed says it.\n\n",
+        "The lift due to q is γ' = −{OUTPUT} q, a coefficient C_Lq of {}, which no vehicle has. Pitch \
+         damping (M_q = {} 1/s) gives the zeros but wrong poles. The most likely cause is therefore a part of θ in \
+         the output, intended or not. It is not modelled, as the paper does not mention it.\n\n",
         minus(format!("{:.0}", origin.lift_q)),
         printed(PITCH_DAMPING)
     )
@@ -141,17 +142,17 @@ fn rest(origin: &Origin) -> String {
     let printed_inertia: Vec<_> =
         origin.printed_inertia.iter().map(|case| value(case.poles[0])).collect();
     let mut text = format!(
-        "**Rejected**\n\n* The printed inertia, 2.224·10⁵: unstable poles of {}.\n",
+        "**Rejected**\n\n* The printed inertia, 2.224·10⁵: the unstable poles are {}.\n",
         printed_inertia.join(", ")
     );
     text += "\nThe following were computed separately, not by this command:\n\n";
     for rejected in [
-        "The inertia of 86,723 slug ft² that is usual in this family, with either mass: no jump.",
-        "The thrust moment counted twice, as eqs (3) and (4) print it: (zero/pole)² of the rigid body becomes 3.22; \
-         printed is 3.82, counted once gives 3.77.",
-        "Modal forces without the modal mass, or in other units: the unstable pole peaks at 3.24.",
-        "Air that answers to the slope at the tips only: 3.21 (even), 3.37 (slosh).",
-        "Thrust that does not go with dynamic pressure: a phugoid of 0.041 rad/s, further off.",
+        "An inertia of 86,723 slug ft², usual in this family, with either mass: no jump.",
+        "The thrust moment counted twice, as printed in eqs (3) and (4): (zero/pole)² of the rigid body is 3.22 \
+         instead of the printed 3.82; counted once it is 3.77.",
+        "Modal forces without the modal mass, or in other units: the unstable pole is at most 3.24.",
+        "Aerodynamic forces from the slope at the tips only: 3.21 (even), 3.37 (slosh).",
+        "Thrust independent of dynamic pressure: a phugoid of 0.041 rad/s, which is further off.",
     ] {
         text += &format!("* {}\n", escape(rejected));
     }
@@ -160,8 +161,8 @@ fn rest(origin: &Origin) -> String {
         "The phugoid, 0.0238 rad/s, and its growth (erratum 13).",
         "The height pole, −2.49·10⁻⁴ (erratum 15).",
         "The unequal real zeros (erratum 14, and above).",
-        "Why the mass centre of the beam should lie near 64 ft, when its printed densities put it at 55 ft.",
-        "The first frequency of the slosh column, which rises with air and should fall.",
+        "The mass centre of the beam near 64 ft, although its printed densities put it at 55 ft.",
+        "The first frequency of the slosh column, which is higher with air and should be lower.",
     ] {
         text += &format!("* {open}\n");
     }

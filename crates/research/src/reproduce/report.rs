@@ -1,4 +1,4 @@
-//! Everything that a report says, before it has a form. As JSON it is `report.json`.
+//! The results of a report; serialised as `report.json`.
 
 use super::claims::Tested;
 use super::fit_errors::FitErrors;
@@ -18,7 +18,7 @@ pub const PAPER: &str = "Xu, Huang, Cai, \"Flight dynamic analysis of hypersonic
 /// A drawing in `figures/`.
 #[derive(Debug, Clone, Serialize)]
 pub struct Figure {
-    /// File name without its ending.
+    /// File name without extension.
     pub file: String,
     pub title: String,
     pub caption: String,
@@ -44,7 +44,7 @@ pub struct SetReport {
 pub struct Report {
     pub paper: &'static str,
     pub version: &'static str,
-    /// What no coefficient set touches.
+    /// Results that do not depend on the coefficient set.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub table1: Option<Table>,
     pub figures: Vec<Figure>,
@@ -60,7 +60,7 @@ pub struct Report {
     pub errata: Option<&'static str>,
 }
 
-/// How often each verdict was given.
+/// The number of each verdict.
 pub fn count<'a>(verdicts: impl Iterator<Item = &'a Verdict>) -> [usize; RANKS.len()] {
     let mut count = [0; RANKS.len()];
     for verdict in verdicts {

@@ -1,4 +1,4 @@
-//! Follows poles and zeros through a sweep.
+//! Tracks poles and zeros through a sweep.
 
 use super::roots::Root;
 
@@ -7,17 +7,16 @@ pub fn assurance(a: &Root, b: &Root) -> f64 {
     a.direction.dotc(&b.direction).norm_sqr()
 }
 
-/// How far two roots of neighbouring steps are from being one: by what moves, and by how fast.
-/// Either alone fails: two modes that cross have equal values, the halves of a pair equal motions.
+/// Distance of two roots of neighbouring steps, in eigenvector and value. Neither alone is enough: crossing modes
+/// have equal values, the halves of a pair equal eigenvectors.
 fn distance(a: &Root, b: &Root) -> f64 {
-    /// rad/s; below, roots count as equal.
+    /// Roots closer than this count as equal, rad/s.
     const ORIGIN: f64 = 1e-3;
     let apart = (a.value - b.value).norm() / (a.frequency() + b.frequency() + ORIGIN);
     (1.0 - assurance(a, b)) + 2.0 * apart
 }
 
-/// For every root of `from` the place of its continuation in `to`: the nearest pairs first, each
-/// root once.
+/// For every root of `from` the index of its continuation in `to`, matching the nearest pairs first.
 pub fn matches(from: &[Root], to: &[Root]) -> Vec<Option<usize>> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::with_capacity(from.len() * to.len());
     for (i, a) in from.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Poles and zeros with what moves in them, and their names.
+//! Poles and zeros with their eigenvectors and names.
 
 use super::eigenvectors::direction;
 use ahv::structure::FLEXIBLE;
@@ -6,7 +6,7 @@ use nalgebra::{Complex, DMatrix, DVector};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
-/// What a pole or zero is.
+/// Name of a pole or zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Name {
     Phugoid,
@@ -49,19 +49,19 @@ impl Serialize for Name {
 #[derive(Debug, Clone)]
 pub struct Root {
     pub value: Complex<f64>,
-    /// None for the lower half of a pair.
+    /// `None` for the lower half of a pair.
     pub name: Option<Name>,
-    /// Velocities of its motion, times the square roots of their masses, of length 1: the product
-    /// of two directions does not depend on the coordinates that the motion is written in.
+    /// Unit vector of mass-weighted velocities, so that products of two directions do not depend on the
+    /// coordinates.
     pub direction: DVector<Complex<f64>>,
-    /// Elastic part of the kinetic energy.
+    /// Elastic share of the kinetic energy.
     pub elastic: f64,
-    /// Sloshing part of the elastic kinetic energy.
+    /// Sloshing share of the elastic kinetic energy.
     pub slosh: f64,
 }
 
-/// Turns states into velocities times the square roots of their masses: the three of flight, then what
-/// the modes move of the body, its mean motion first and then its bending, then the sloshing masses.
+/// Maps states to mass-weighted velocities: three of the rigid motion; of the modes, the mean motion of the body,
+/// its bending, and the sloshing masses.
 #[derive(Debug, Clone)]
 pub struct Metric {
     pub matrix: DMatrix<f64>,
@@ -69,7 +69,7 @@ pub struct Metric {
     pub sloshing: usize,
 }
 
-/// Rows of the motion in flight.
+/// Rows of the rigid motion.
 pub const RIGID_ROWS: usize = 3;
 /// Rows of the body's mean translation and rotation in the modes.
 pub const BODY_ROWS: usize = 2;
@@ -79,7 +79,7 @@ impl Root {
         let motion = direction(matrix, value);
         let velocity = metric.matrix.map(Complex::from) * motion;
         let size = velocity.norm();
-        // A motion without velocity, such as a height that stays, has no direction.
+        // A motion without velocity, such as a constant height, has no direction.
         let direction = if size > 0.0 { velocity.unscale(size) } else { velocity };
         let energy = |rows: std::ops::Range<usize>| -> f64 {
             direction.as_slice()[rows].iter().map(|entry| entry.norm_sqr()).sum()
@@ -96,15 +96,14 @@ impl Root {
     }
 }
 
-/// Eigenvalues of a matrix, with directions in its coordinates' metric; unnamed.
+/// Eigenvalues of a matrix with directions in a metric, without names.
 pub fn roots(matrix: &DMatrix<f64>, values: &[Complex<f64>], metric: &Metric) -> Vec<Root> {
     values.iter().map(|&value| Root::new(matrix, metric, value)).collect()
 }
 
-/// Names the pairs in which the structure moves, and returns the places of all others, fastest
-/// first: of as many pairs as there are modes the most elastic, of these the slosh modes are those
-/// in which most of the energy sloshes. Where a pair is missing, because a sensor on the body can turn
-/// the zeros of a flexible mode into two fast real ones, it is a flexible one.
+/// Names the elastic pairs, and returns the indices of all others, fastest first. Elastic are the pairs with the
+/// most elastic energy, as many as there are modes; of these, the slosh modes have the most sloshing energy.
+/// A missing pair counts as flexible: with a sensor on the body, its zeros can be two fast real ones.
 fn name_elastic(roots: &mut [Root], flexible: usize, slosh: usize) -> Vec<usize> {
     let upper = |i: &usize| roots[*i].value.im > 0.0;
     let mut pairs: Vec<usize> = (0..roots.len()).filter(upper).collect();
@@ -123,12 +122,12 @@ fn name_elastic(roots: &mut [Root], flexible: usize, slosh: usize) -> Vec<usize>
     let mut rest: Vec<usize> = (0..roots.len()).filter(rigid).collect();
     let frequency = |i: usize| roots[i].frequency();
     rest.sort_by(|&a, &b| frequency(b).total_cmp(&frequency(a)));
-    // The lower half of an elastic pair has no name, and is no rigid motion either.
+    // The lower half of an elastic pair has no name and is not a rigid motion.
     rest
 }
 
-/// Names poles. Of the rigid body's five the fastest two are the short period, the slowest pair is
-/// the phugoid, and the real one that is left is the height mode.
+/// Names poles. Of the five rigid-body poles the fastest two are the short period, the slowest pair is
+/// the phugoid, and the remaining real one is the height mode.
 pub fn name_poles(roots: &mut [Root], slosh: usize, flexible: bool) {
     let rest = name_elastic(roots, if flexible { FLEXIBLE } else { 0 }, slosh);
     for (rank, &i) in rest.iter().enumerate() {
@@ -144,7 +143,7 @@ pub fn name_poles(roots: &mut [Root], slosh: usize, flexible: bool) {
     }
 }
 
-/// Names zeros: of the slowest three that are left, the slowest belongs to the height. Faster ones come
+/// Names zeros. Of the slowest three rigid-body zeros, the slowest is that of the height. Faster ones come
 /// from a flexible mode and have no counterpart in the paper.
 pub fn name_zeros(roots: &mut [Root], slosh: usize, flexible: bool) {
     let rest = name_elastic(roots, if flexible { FLEXIBLE } else { 0 }, slosh);
@@ -158,10 +157,10 @@ pub fn name_zeros(roots: &mut [Root], slosh: usize, flexible: bool) {
     }
 }
 
-/// Zeros of a rigid body: its five states less V and gamma.
+/// Number of zeros of a rigid body: its five states minus V and gamma.
 const RIGID_ZEROS: usize = 3;
 
-/// The root of a name.
+/// The root with a name.
 pub fn find(roots: &[Root], name: Name) -> Option<&Root> {
     roots.iter().find(|root| root.name == Some(name))
 }

@@ -1,4 +1,4 @@
-//! The sweeps of figs 6 to 8: poles and zeros while one parameter moves.
+//! The sweeps of figs 6 to 8: poles and zeros over one parameter.
 
 use super::operating_point::OperatingPoint;
 use super::root_tracking::{assurance, matches};
@@ -12,12 +12,12 @@ use serde::{Serialize, Serializer};
 /// One pole or zero along a sweep.
 #[derive(Debug, Clone, Serialize)]
 pub struct Branch {
-    /// What it is at the start.
+    /// Its name at the start.
     pub name: Name,
     /// Real and imaginary part at every step, rad/s.
     #[serde(serialize_with = "pairs")]
     pub values: Vec<Complex<f64>>,
-    /// Sloshing part of its elastic kinetic energy at every step.
+    /// Sloshing share of its elastic kinetic energy at every step.
     pub slosh: Vec<f64>,
 }
 
@@ -31,7 +31,7 @@ impl Branch {
     }
 }
 
-/// Which parameter moves.
+/// The parameter of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Parameter {
@@ -40,7 +40,7 @@ pub enum Parameter {
     Frequency,
 }
 
-/// A parameter's way, and all branches.
+/// A sweep: the parameter values and all branches.
 #[derive(Debug, Clone, Serialize)]
 pub struct Sweep {
     pub parameter: Parameter,
@@ -48,8 +48,8 @@ pub struct Sweep {
     pub steps: Vec<f64>,
     pub poles: Vec<Branch>,
     pub zeros: Vec<Branch>,
-    /// Smallest modal assurance between neighbouring steps on any elastic branch: near 1, the
-    /// branches are beyond doubt.
+    /// Lowest modal assurance between neighbouring steps of any elastic branch; near 1 if the tracking is
+    /// unambiguous.
     pub weakest_match: f64,
 }
 
@@ -63,7 +63,7 @@ impl Parameter {
         }
     }
 
-    /// Values that the figures mark on the way.
+    /// Intermediate values marked in the figures.
     pub fn marks(self) -> &'static [f64] {
         match self {
             Self::Fuel => &[0.75, 0.5, 0.25],
@@ -113,7 +113,7 @@ impl Sweep {
     }
 }
 
-/// Every named root of the first step, followed through all others.
+/// Tracks every named root of the first step through all others.
 fn follow<'a>(
     steps: impl Iterator<Item = &'a Vec<Root>> + Clone,
     weakest: &mut f64,

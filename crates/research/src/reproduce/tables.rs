@@ -1,4 +1,4 @@
-//! Tables 1 to 3, cell by cell.
+//! Tables 1 to 3, compared cell by cell.
 
 use super::operating_point::OperatingPoint;
 use super::roots::{Name, Root, find};
@@ -9,7 +9,7 @@ use serde::Serialize;
 
 pub const COLUMNS: [&str; 3] = ["rigid body", "even mass", "sloshing mass"];
 
-/// A printed number beside ours, rad/s.
+/// A printed number and ours, rad/s.
 #[derive(Debug, Clone, Serialize)]
 pub struct Cell {
     pub row: String,
@@ -18,14 +18,14 @@ pub struct Cell {
     pub ours: Option<f64>,
     /// ours/paper - 1.
     pub difference: Option<f64>,
-    /// The best that one inertia and free stations can do, all other numbers published.
+    /// The best fit with one inertia and free stations, all other numbers published.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub best: Option<f64>,
     #[serde(flatten)]
     pub verdict: Verdict,
 }
 
-/// A mode of ours that the paper does not print.
+/// A pole or zero that the paper does not print.
 #[derive(Debug, Clone, Serialize)]
 pub struct Unprinted {
     pub row: String,
@@ -45,7 +45,7 @@ pub struct Table {
 }
 
 impl Table {
-    /// Puts the best that one inertia and free stations can do beside our numbers.
+    /// Adds the numbers of the best fit with one inertia and free stations.
     pub fn beside(mut self, best: Self) -> Self {
         for (cell, best) in self.cells.iter_mut().zip(best.cells) {
             cell.best = best.ours;
@@ -67,53 +67,50 @@ const BALANCE: &str = "balanced forces";
 const PHUGOID: &str = "scale height";
 const NEUTRAL: &str = "nearly neutral";
 
-/// The reasons in full.
+/// Short and full text of each reason.
 pub const REASONS: [(&str, &str); 9] = [
     (
         VEHICLE,
-        "one inertia, one offset of the mass centre and one set of tanks serve three columns that ask for \
+        "three columns share one inertia, one shift of the mass centre and one set of tanks, but would need \
          slightly different ones (\"Where the printed digits come from\"). The published inertia fits none of \
          them (erratum 3).",
     ),
     (
         UNEQUAL,
-        "the printed pair is unequal; eqs (3)-(4) give a pair that is equal but for sign, and exactly so \
-         without a beam (erratum 14). Its size, the geometric mean, stands below the table.",
+        "the printed pair is unequal; eqs (3)-(4) give a nearly symmetric pair, exactly symmetric \
+         without a beam (erratum 14). The geometric mean is compared below the table.",
     ),
     (
         DAMPING,
-        "the paper does not print its structural damping; one ratio for each mode serves both columns, and \
-         what the air adds is derived here from the mode shapes (erratum 17).",
+        "the paper does not print its structural damping. One ratio per mode is used for both columns, and \
+         the aerodynamic damping is derived from the mode shapes (erratum 17).",
     ),
     (
         SENSOR,
         "the frequency of a zero depends on where on the body gamma is read and on how elevator and fuel \
-         drive the mode. The paper says neither; the station is identified, the drive is derived \
+         excite the mode. The paper states neither: the station is identified, the modal forces are derived \
          (erratum 17).",
     ),
     (
         RATES,
-        "the decay of a zero is the small difference between what the sensor sees and what the controls \
-         drive, and answers to both far more than its frequency does. It is shown, and not identified.",
+        "the real part of a zero is a small difference between sensor and control influence, and far more \
+         sensitive to both than its frequency. It is shown but not identified.",
     ),
     (
         STIFFNESS,
-        "the air's stiffness on a mode is derived, since C^eta and N_i were not found (erratum 17). It \
-         lowers the frequency of the first mode. The printed one rises with air, from 23.34 in Table 1 to \
-         23.78 in Table 2, though that of the even column does not.",
+        "the aerodynamic stiffness of a mode is derived, as C^eta and N_i were not found (erratum 17). It \
+         lowers the frequency of the first mode. The printed frequency is higher with air, 23.34 in Table 1 and \
+         23.78 in Table 2, but not that of the even column.",
     ),
-    (
-        BALANCE,
-        "the real part is what is left of forces that balance in trim: small beside any of them.",
-    ),
+    (BALANCE, "the real part is the small remainder of forces that balance in trim."),
     (
         PHUGOID,
-        "erratum 13 again. Elasticity lowers the frequency by far less than the printed values ask.",
+        "see erratum 13. Elasticity lowers the frequency by far less than in the printed values.",
     ),
     (
         NEUTRAL,
-        "all forces go with dynamic pressure, so flight along a line of equal dynamic pressure is \
-         neutral but for gravity and the static deflection (erratum 15).",
+        "all forces are proportional to dynamic pressure, so a flight at constant dynamic pressure is \
+         neutrally stable except for gravity and the static deflection (erratum 15).",
     ),
 ];
 
@@ -140,10 +137,10 @@ impl Builder {
         self.put(row, paper, ours, Verdict::of(paper, ours, aim, signed, because));
     }
 
-    /// A real root of ours; one that oscillates is no counterpart.
+    /// Compares a real root; an oscillating one has no counterpart.
     fn real(&mut self, roots: &[Root], row: &str, name: Name, paper: f64, because: &str) {
         let ours = find(roots, name).filter(|root| root.value.im == 0.0).map(|root| root.value.re);
-        let because = if ours.is_some() { because } else { "ours is a pair that oscillates" };
+        let because = if ours.is_some() { because } else { "ours is an oscillating pair" };
         self.compare(row.into(), paper, ours, because);
     }
 
@@ -167,7 +164,7 @@ fn unprinted(roots: &[Root]) -> Vec<Unprinted> {
         .collect()
 }
 
-/// To the digits that are printed.
+/// Rounds to the printed digits.
 fn rounded(value: f64) -> f64 {
     (value * 1e4).round() / 1e4
 }
@@ -201,7 +198,7 @@ pub fn table1(printed: &Table1, points: &[OperatingPoint; 3]) -> Table {
                 row,
                 *paper,
                 Some(point.vehicle.omega[i]),
-                "the identification misses it",
+                "not met by the identification",
             );
         }
         cells.extend(builder.cells);

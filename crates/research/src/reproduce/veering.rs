@@ -1,4 +1,4 @@
-//! The structure alone while the sloshing frequency moves: which mode is slosh, which is beam.
+//! Frequency veering of the structure without air: slosh and bending modes over the sloshing frequency.
 
 use ahv::data::Data;
 use ahv::structure::{MODES, Modes};
@@ -11,14 +11,14 @@ const FROM: f64 = 2.0;
 const TO: f64 = 40.0;
 const STEPS: usize = 190;
 
-/// Where the lowest mode turns from liquid into beam.
+/// The point where the lowest mode changes from slosh to bending.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Exchange {
-    /// Of the liquid in a tank at rest, rad/s.
+    /// Sloshing frequency of the liquid in a fixed tank, rad/s.
     pub slosh_frequency: f64,
     /// The three lowest modes there, rad/s.
     pub omega: [f64; 3],
-    /// Part of their strain energy that is in the springs of the liquid.
+    /// Share of their strain energy in the springs of the liquid.
     pub slosh: [f64; 3],
 }
 
@@ -28,7 +28,7 @@ pub struct Veering {
     pub fuel: f64,
     pub steps: Vec<f64>,
     pub omega: [Vec<f64>; MODES],
-    /// Part of the strain energy that is in the springs of the liquid.
+    /// Share of the strain energy in the springs of the liquid.
     pub slosh: [Vec<f64>; MODES],
     pub exchange: Option<Exchange>,
 }

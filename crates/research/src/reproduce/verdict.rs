@@ -1,12 +1,11 @@
-//! What can be said of a number or a claim of the paper.
+//! Verdicts on numbers and claims of the paper.
 
 use serde::Serialize;
 
-/// What a number must hold to be called reproduced, per cent. Each limit belongs to a kind of number,
-/// not to a cell or a result.
+/// Kind of number, which determines the error limit for "reproduced", per cent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
-    /// Table 1, which the structure is identified from.
+    /// Table 1, from which the structure is identified.
     Identified,
     /// Imaginary parts of poles and zeros.
     Frequency,
@@ -38,22 +37,22 @@ impl Aim {
     }
 }
 
-/// A number is near if it misses its aim by no more than this factor.
+/// A number is near if its error is within this factor of its limit.
 pub const NEAR: f64 = 2.0;
-/// Below this, rad/s, a value is a zero that rounding has touched.
+/// Smaller values are zeros with rounding errors, rad/s.
 const ZERO: f64 = 1e-6;
 
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "verdict", rename_all = "snake_case")]
 pub enum Verdict {
-    /// A number within so many per cent, or a claim as it stands.
+    /// A number within this many per cent, or a claim.
     Reproduced {
         within_percent: Option<f64>,
-        /// Size of what is claimed, if the claim has none.
+        /// Size of the claimed change.
         #[serde(skip_serializing_if = "Option::is_none")]
         by: Option<String>,
     },
-    /// Beyond its aim by no more than [`NEAR`].
+    /// Within [`NEAR`] times its limit.
     Near {
         within_percent: f64,
         because: String,
@@ -65,7 +64,7 @@ pub enum Verdict {
     NotReproduced {
         because: String,
     },
-    /// No vehicle under eqs (3)-(4) has this number; a test of that erratum proves it.
+    /// No vehicle under eqs (3)-(4) has this number, as a test of the erratum proves.
     Impossible {
         erratum: u8,
     },
@@ -74,8 +73,8 @@ pub enum Verdict {
 impl Verdict {
     pub const CLAIMED: Self = Self::Reproduced { within_percent: None, by: None };
 
-    /// Compares a number; `because` explains what is off. `signed` says that the sign means
-    /// something: that of a frequency does not.
+    /// Compares a number; `because` is the reason of a difference. `signed` is false for frequencies, whose sign
+    /// has no meaning.
     pub fn of(paper: f64, ours: Option<f64>, aim: Aim, signed: bool, because: &str) -> Self {
         let because = because.to_string();
         let Some(ours) = ours else { return Self::NotReproduced { because } };
@@ -99,7 +98,7 @@ impl Verdict {
         Self::Reproduced { within_percent: Some(percent), by: None }
     }
 
-    /// In words. The mark in front lets the eye find its way, also without colour.
+    /// Text with a symbol in front, which is recognisable without colour.
     pub fn text(&self) -> String {
         match self {
             Self::Reproduced { by: Some(size), .. } => format!("✓ reproduced, by {size}"),
@@ -119,7 +118,7 @@ impl Verdict {
         }
     }
 
-    /// Why not, if it is a matter of reasons.
+    /// The reason, if the verdict has one.
     pub fn because(&self) -> Option<&str> {
         match self {
             Self::Near { because, .. }
@@ -145,7 +144,7 @@ impl Verdict {
 pub const RANKS: [&str; 5] =
     ["✓ reproduced", "≈ near", "◐ in sign only", "✗ not reproduced", "∅ not by eqs (3)-(4)"];
 
-/// ours/paper - 1: positive if ours is larger in size, below -1 if the sign differs; none where the
+/// ours/paper - 1: positive if ours is larger in size, below -1 if the sign differs; `None` where the
 /// paper prints 0.
 pub fn difference(paper: f64, ours: f64) -> Option<f64> {
     (paper != 0.0).then(|| ours / paper - 1.0)

@@ -1,4 +1,4 @@
-//! Elastic derivatives straight from the panels, to judge the strips of [`ahv::air::strip_theory`].
+//! Elastic derivatives from the panels, to assess [`ahv::air::strip_theory`].
 
 use super::stream::Stream;
 use super::{AirLoads, Attitude, ShockExpansion};
@@ -54,8 +54,8 @@ impl ShockExpansion {
 pub const COMPARED: [&str; 6] =
     ["C_L per eta", "C_M per eta", "N per eta", "C_L per rate", "C_M per rate", "N per rate"];
 
-/// How far elastic terms are from others: norm of the difference over that of `other`, over the
-/// first `modes`; rows as in [`COMPARED`].
+/// Relative difference of elastic terms: norm of the difference over that of `other`, over the first `modes`; rows
+/// as in [`COMPARED`].
 pub fn deviation(elastic: &Elastic, other: &Elastic, modes: usize) -> [f64; 6] {
     let terms = |elastic: &Elastic| {
         let of = |first: usize, rows: usize, which: usize| -> Vec<f64> {

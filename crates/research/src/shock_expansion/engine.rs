@@ -1,6 +1,6 @@
 //! The engine: inlet shock, diffuser, burner, nozzle, one-dimensional and without friction.
 //!
-//! The fuel's mass, 3 % of the air's at most, is neglected against it; its heat is not.
+//! The mass of the fuel, at most 3 % of that of the air, is neglected; its heat is not.
 
 use super::stream::{Medium, Stream};
 use crate::gas::GasError;
@@ -32,8 +32,8 @@ impl Engine {
     /// The stream in the exit plane.
     ///
     /// `inflow` is the stream along the fore-body, `turn` (rad) brings it parallel to the axis,
-    /// `mass_flow` (kg/(s m)) is what the lip captures, `phi` the fuel equivalence ratio. The
-    /// diffuser joins the stream behind the inlet shock, as high as the mass flow makes it, to the
+    /// `mass_flow` (kg/(s m)) is captured by the lip, `phi` the fuel equivalence ratio. The
+    /// diffuser connects the stream behind the inlet shock, whose height follows from the mass flow, to the
     /// burner.
     ///
     /// # Errors

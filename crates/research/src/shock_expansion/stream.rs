@@ -1,10 +1,10 @@
-//! A uniform stream of a given gas, and what walls and ducts make of it.
+//! A uniform stream of a gas, and its changes at walls and in ducts.
 
 use crate::gas::{Gas, GasError};
 use ahv::air::Atmosphere;
 use ahv::data::EarthData;
 
-/// The gas with what shocks do not ask for: its constant.
+/// A gas with its specific gas constant.
 #[derive(Debug, Clone, Copy)]
 pub struct Medium {
     /// Ratio of specific heats.
@@ -25,7 +25,7 @@ pub struct Stream {
 }
 
 impl Medium {
-    /// Air as the data say.
+    /// Air of the data file.
     pub fn new(data: &EarthData) -> Self {
         Self {
             gas: Gas { gamma: data.air.heat_capacity_ratio.value },
@@ -60,7 +60,7 @@ impl Medium {
         self.gas_constant * self.gas.gamma / (self.gas.gamma - 1.0)
     }
 
-    /// Without losses, to another Mach number.
+    /// The stream isentropically at another Mach number.
     pub fn isentropic(&self, stream: &Stream, mach: f64) -> Stream {
         let gas = self.gas;
         Stream {
@@ -71,8 +71,7 @@ impl Medium {
         }
     }
 
-    /// Along a wall that bends by a small angle into the stream (positive) or away from it,
-    /// without losses.
+    /// The stream turned isentropically by a wall that bends by a small angle into it (positive) or away.
     ///
     /// # Errors
     /// [`GasError::Expansion`] if the bend would bring it to the speed of sound or to vacuum.
@@ -84,7 +83,7 @@ impl Medium {
         Ok(self.isentropic(stream, self.gas.mach_from_prandtl_meyer(before - angle)?))
     }
 
-    /// Around a sharp corner: a shock if it turns into the stream (positive), else an expansion.
+    /// The stream behind a sharp corner: a shock if it turns into the stream (positive), else an expansion.
     ///
     /// # Errors
     /// [`GasError`] if the shock is detached or the corner too sharp.
@@ -100,7 +99,7 @@ impl Medium {
         })
     }
 
-    /// Without losses through a duct whose area changes `ratio` times; the stream stays supersonic.
+    /// The stream after an isentropic duct with area ratio `ratio`; it stays supersonic.
     ///
     /// # Errors
     /// [`GasError::Choked`] if the duct is narrower than the throat.
@@ -109,7 +108,7 @@ impl Medium {
         Ok(self.isentropic(stream, mach))
     }
 
-    /// Heated at constant area until the stagnation temperature has risen `ratio` times.
+    /// The stream heated at constant area; `ratio` is that of stagnation temperatures.
     ///
     /// # Errors
     /// [`GasError::ThermallyChoked`] if the stream cannot take the heat.

@@ -3,11 +3,10 @@
 use super::stream::{Medium, Stream};
 use crate::gas::GasError;
 
-/// Panels per wall: with them the midpoint rule errs by less than 1e-3 on the plume, the steepest
-/// of the pressures.
+/// Panels per wall; the error of the midpoint rule is below 1e-3 on the plume, where the pressure is steepest.
 pub const PANELS: usize = 100;
 
-/// A force per metre of width and its place; x aft and z up from the nose.
+/// A force per metre of width and its point of application; x aft and z up from the nose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Force {
     /// Station, m.
@@ -23,16 +22,16 @@ pub struct Force {
 /// A flat wall.
 #[derive(Debug, Clone, Copy)]
 pub struct Wall {
-    /// Place of its front end: station and height, m.
+    /// Front end: station and height, m.
     pub from: [f64; 2],
-    /// Place of its rear end.
+    /// Rear end: station and height, m.
     pub to: [f64; 2],
     /// 1 if the stream is below it, -1 if above.
     pub side: f64,
 }
 
 impl Wall {
-    /// The force on each panel, of an excess pressure (Pa) that depends on the place, 0 to 1.
+    /// The force on each panel from an excess pressure (Pa) as a function of the position, 0 to 1.
     pub fn pressed(&self, pressure: impl Fn(f64) -> f64) -> impl Iterator<Item = Force> {
         let [[x0, z0], [x1, z1]] = [self.from, self.to];
         let (length, rise, share) = (x1 - x0, z1 - z0, 1.0 / PANELS as f64);
@@ -45,9 +44,9 @@ impl Wall {
         })
     }
 
-    /// The forces of a stream, and the stream at the rear end. It meets the wall at an angle (rad)
-    /// that varies with the station: sharply at the front end, then without losses. Pressures count
-    /// from `ambient` (Pa).
+    /// The forces of a stream, and the stream at the rear end. The wall turns the stream by an angle (rad) that
+    /// varies with the station: at a sharp corner at the front end, then isentropically. Pressures are relative to
+    /// `ambient` (Pa).
     ///
     /// # Errors
     /// [`GasError`] if there is no such flow.

@@ -1,5 +1,5 @@
-//! What the paper prints about beam and tanks, as their numbers give it, and the most ordinary
-//! numbers that give what is printed.
+//! Printed data on beam and tanks, their values with given numbers, and the numbers nearest to the prior that give
+//! the printed data.
 
 use super::numbers::{CENTRES, COORDINATES, Prior, rounded};
 use crate::identify::cells::{short_period, size};
@@ -18,20 +18,20 @@ use nalgebra::DVector;
 pub const FREQUENCIES: usize = 2 * FLEXIBLE;
 /// The frequencies, then the growth of the short period from even to sloshing mass.
 pub const DATA: usize = FREQUENCIES + 1;
-/// Place of that growth.
+/// Index of that growth.
 pub const GROWTH: usize = FREQUENCIES;
-/// One unit of misfit: of a frequency half of the last printed digit, rad/s; of the growth what it
-/// differs by between printed and published coefficients, which are not those of the paper.
+/// Standard deviations of the data: of a frequency half of the last printed digit, rad/s; of the growth its
+/// difference between printed and published coefficients, which are not those of the paper.
 pub const DOUBT: [f64; DATA] = [0.005, 0.005, 0.005, 0.005, 0.005, 0.005, 0.01];
-/// Weights of the prior against that: first it holds all, at last it is worth what it says.
+/// Weights of the prior, decreasing to 1.
 const WEIGHTS: [f64; 4] = [1e6, 1e4, 1e2, 1.0];
-/// Steps that end the search on the way, and at its end: far below the digits that are written.
+/// End of the searches at intermediate weights, and of the last one, far below the written digits.
 const NEAR: End = (1e-2, 200);
 const CONVERGED: End = (1e-7, 200);
 
-/// What is printed: Table 1, rad/s, and by which factor the short period of Table 2 grows from even
-/// to sloshing mass, geometric means of its two poles. No other number of the paper depends on where
-/// the liquid stands and so little on the coefficients, which are not known.
+/// The printed data: Table 1, rad/s, and the growth factor of the short period of Table 2 from even to sloshing
+/// mass, in geometric means of its two poles. It depends on the position of the liquid and hardly on the
+/// coefficients, which are not known.
 pub fn printed() -> Result<[f64; DATA]> {
     let Published { table1, table2, .. } = Published::embedded()?;
     let mut all = [0.0; DATA];
@@ -41,7 +41,7 @@ pub fn printed() -> Result<[f64; DATA]> {
     Ok(all)
 }
 
-/// What is to be met, and with what.
+/// Data to be met, and the vehicle.
 pub struct Model {
     pub prior: Prior,
     pub wanted: [f64; DATA],
@@ -50,10 +50,10 @@ pub struct Model {
     set: AeroData,
 }
 
-/// What came out.
+/// Result of the identification.
 pub struct Solution {
     pub fit: Fit,
-    /// With the digits that are written.
+    /// Rounded to the written digits.
     pub vehicle: VehicleData,
 }
 
@@ -81,8 +81,8 @@ impl Model {
         Some([a, b, c, size(short_period(&linear)?)])
     }
 
-    /// What the numbers give, in the order of [`printed`]. A sloshing mass hangs on a node; for a tank
-    /// between two nodes the values are interpolated, so that they follow its centre without jumps.
+    /// Values in the order of [`printed`]. A sloshing mass is attached to a node; for a tank between two nodes the
+    /// values are interpolated, so that they are continuous in its centre.
     pub fn found(&self, vehicle: &VehicleData) -> Option<[f64; DATA]> {
         let even = self.column(vehicle, Configuration::EvenMassBeam)?;
         let element = vehicle.geometry.length_m.value / f64::from(vehicle.beam.elements.value);
@@ -105,21 +105,21 @@ impl Model {
         Some([a, b, c, d, e, f, after / before])
     }
 
-    /// Differences from what is wanted over [`DOUBT`].
+    /// Differences from the data over [`DOUBT`].
     pub fn residual(&self, point: &DVector<f64>) -> Option<DVector<f64>> {
         let found = self.found(&self.prior.vehicle(point))?;
         let off = (0..DATA).map(|i| (found[i] - self.wanted[i]) / DOUBT[i]);
         Some(DVector::from_iterator(DATA, off))
     }
 
-    /// The most ordinary numbers that give what is wanted.
+    /// The numbers nearest to the prior that give the data.
     pub fn solve(&self) -> Result<Solution> {
         let mut point = DVector::zeros(COORDINATES);
         let mut held = [false; COORDINATES];
         for weight in WEIGHTS {
             point = self.minimise(&point, &held, weight, NEAR)?.point;
         }
-        // The masses of the vehicle hang on nodes: the centres go there, the rest follows.
+        // Sloshing masses are attached to nodes: centres move to the nearest node, then the rest is fitted again.
         let element = self.data.vehicle.geometry.length_m.value
             / f64::from(self.data.vehicle.beam.elements.value);
         let vehicle = self.prior.vehicle(&point);
@@ -139,9 +139,9 @@ impl Model {
     }
 }
 
-/// The nodes on both sides of a place, in elements, and their weights.
+/// The nodes on both sides of a position (in elements), and their weights.
 fn neighbours(place: f64) -> [(f64, f64); 2] {
-    /// A centre on a node, but for rounding.
+    /// Distance from a node that counts as rounding error.
     const ON: f64 = 1e-9;
     let node = place.round();
     if (place - node).abs() < ON {

@@ -1,6 +1,6 @@
-//! The numbers of beam and tanks, their prior, and how they are written.
+//! The numbers of beam and tanks, their prior, and their digits in the file.
 //!
-//! A point is in units of doubt: each coordinate is 0 in the prior and costs its square.
+//! Coordinates are in prior standard deviations from the prior mean.
 
 use ahv::data::VehicleData;
 use ahv::structure::Beam;
@@ -8,7 +8,7 @@ use anyhow::{Context, Result, anyhow};
 use nalgebra::DVector;
 use toml_edit::{DocumentMut, Value};
 
-/// Stations of the stiffness; their level, their tilt and the second differences between.
+/// Stations of the stiffness; its coordinates are level, tilt and second differences.
 pub const STATIONS: usize = 9;
 /// Level, tilt and second differences; then the centres and lengths of the tanks, and the mass centre.
 pub const COORDINATES: usize = STATIONS + 5;
@@ -17,34 +17,34 @@ const BALANCE: usize = STATIONS + 4;
 /// Coordinates of the tanks' centres.
 pub const CENTRES: [usize; 2] = [STATIONS, STATIONS + 1];
 
-/// Level of EI and its ratio from end to end: known to a factor of ten.
+/// Prior of the level of EI and of its ratio from end to end: a factor of ten.
 const LEVEL: f64 = std::f64::consts::LN_10;
-/// Second difference of ln EI: a station may be a factor sqrt(2) off the geometric mean of its
+/// Prior of second differences of ln EI: a station within a factor sqrt(2) of the geometric mean of its
 /// neighbours.
 const BEND: f64 = std::f64::consts::LN_2;
-/// Centre of a tank, over the length of its beam: halfway from the middle to the end.
+/// Prior of the centre of a tank over the length of its beam: halfway from the middle to the end.
 const CENTRE: f64 = 0.25;
-/// Length of a tank in the prior, over that of its beam, and the doubt of its logarithm.
+/// Prior of the length of a tank over that of its beam: mean, and standard deviation of the logarithm.
 const FILLED: f64 = 0.5;
 const LENGTH: f64 = 0.5;
-/// Mass centre of the full vehicle about the published one, over the length of the vehicle: printed
-/// are the masses of two beams that put it at 55 ft, to the foot, without a word on the liquid.
+/// Prior of the mass centre of the full vehicle about the published one, over the length: the printed beams have it
+/// at 55 ft, to the foot, and nothing is printed on the liquid.
 const OFF_BALANCE: f64 = 0.01;
 /// First natural frequency of a uniform free-free beam: `omega = FREE_FREE sqrt(EI / (m l^4))`,
 /// Blevins, Formulas for Natural Frequency and Mode Shape (1979), table 8-1.
 const FREE_FREE: f64 = 22.3733;
 
-/// Where the numbers come from, as the file says it.
+/// Source of the numbers in the file.
 const FOUND: &str = "cargo ahv identify beam";
 
-/// Digits that are written: stiffness, significant; lengths in mm; share.
+/// Written digits: significant digits of stiffness; steps per metre of lengths; steps of shares.
 const DIGITS: usize = 5;
 const MILLIMETRES: f64 = 1e3;
 const SHARES: f64 = 1e4;
 
-/// The most ordinary vehicle with the published masses. Each of its two beams has a tank in its
-/// middle, half as long as the beam. EI is uniform and gives the first even frequency, were the mass
-/// uniform too. The shares of the tanks put the mass centre where it is published.
+/// The prior: a vehicle with the published masses. Each of its two beams has a tank in its middle, half as long as
+/// the beam. EI is uniform; with uniform mass it would give the first even frequency. The shares of the tanks give
+/// the published mass centre.
 #[derive(Debug, Clone)]
 pub struct Prior {
     data: VehicleData,
@@ -79,13 +79,12 @@ impl Prior {
         match coordinate {
             0 => LEVEL,
             1 => LEVEL * (station as f64 / last as f64 - 0.5),
-            // Bends at station `knot`; without a part of level or tilt, so that these stay what
-            // they are called.
+            // A bend at station `knot` without components of level and tilt.
             _ => BEND * Self::bend(coordinate - 1)[station],
         }
     }
 
-    /// A unit second difference at `knot`, less its straight line of best fit.
+    /// A unit second difference at `knot`, minus its least-squares line.
     fn bend(knot: usize) -> [f64; STATIONS] {
         let raw: [f64; STATIONS] = std::array::from_fn(|i| i.saturating_sub(knot) as f64);
         let middle = (STATIONS - 1) as f64 / 2.0;
@@ -110,7 +109,7 @@ impl Prior {
         }
         let [from, to] = [0, 1].map(|j| data.tank[j].centre_m.value);
         let off = OFF_BALANCE * data.geometry.length_m.value * point[BALANCE];
-        // The structure's own mass centre is the published one.
+        // The structure without tanks has the published mass centre.
         let liquid = self.mass_centre + off / data.mass.propellant_fraction.value;
         let share = (to - liquid) / (to - from);
         data.tank[0].share.value = share;
@@ -118,14 +117,14 @@ impl Prior {
         data
     }
 
-    /// The point whose tank `j` has its middle at a station, m.
+    /// Coordinate of the centre of tank `j` at a station, m.
     pub fn centre_coordinate(&self, j: usize, station_m: f64) -> f64 {
         let start = [0.0, self.beams[0]][j];
         ((station_m - start) / self.beams[j] - 0.5) / CENTRE
     }
 }
 
-/// What a doubt of a number refers to.
+/// Scale of the standard deviation of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// The natural logarithm.
@@ -169,7 +168,7 @@ pub fn with_values(mut data: VehicleData, values: &[f64]) -> VehicleData {
     data
 }
 
-/// The numbers with the digits that are written.
+/// The numbers rounded to the written digits.
 pub fn rounded(mut data: VehicleData) -> VehicleData {
     let decimals = |value: &mut f64, unit: f64| *value = (*value * unit).round() / unit;
     for value in &mut data.beam.stiffness_n_m2_per_m.value {
@@ -186,8 +185,8 @@ pub fn rounded(mut data: VehicleData) -> VehicleData {
     data
 }
 
-/// The text of `vehicle.toml` with these numbers and what is known of each, in the order of
-/// [`values`]; all else stays.
+/// The text of `vehicle.toml` with these numbers and their standard errors, in the order of [`values`];
+/// everything else is unchanged.
 pub fn file(text: &str, data: &VehicleData, known: &[String]) -> Result<String> {
     let mut document: DocumentMut = text.parse().context("vehicle.toml")?;
     let list: Vec<_> =

@@ -1,4 +1,4 @@
-//! What the data say about the numbers, and what they leave to the prior.
+//! Report of the identification of beam and tanks.
 
 use super::model::{DATA, DOUBT, FREQUENCIES, GROWTH, Model, Solution};
 use super::numbers::{COORDINATES, Scale, names, values, with_values};
@@ -10,16 +10,16 @@ use anyhow::{Result, anyhow};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-/// A number of which the data decide this part or more counts as determined, and as narrowed.
+/// Share determined by the data from which a number counts as determined, and as constrained.
 const DETERMINED: f64 = 0.9;
 const NARROWED: f64 = 0.3;
 
-/// An identification with all its reasons.
+/// Results of the identification.
 #[derive(Debug, Serialize)]
 pub struct Report {
-    /// Sum of squares of the coordinates: departures from the prior over their doubts.
+    /// Sum of squares of the coordinates: deviations from the prior over its standard deviations.
     pub distance: f64,
-    /// Of the full vehicle: published, identified.
+    /// Mass centre of the full vehicle: published, identified.
     pub mass_centre_m: [f64; 2],
     pub numbers: Vec<Number>,
     pub data: Vec<Datum>,
@@ -30,32 +30,32 @@ pub struct Report {
 pub struct Number {
     pub name: String,
     pub unit: &'static str,
-    /// Errors are of the natural logarithm, and else in the unit.
+    /// Whether errors are of the natural logarithm rather than in the unit.
     pub errors_of_logarithm: bool,
     pub prior: f64,
     pub prior_error: f64,
     pub value: f64,
-    /// Standard error, given the data.
+    /// Posterior standard error.
     pub error: f64,
-    /// Part of the prior's variance that the data remove.
+    /// Share of the prior variance removed by the data.
     pub decided_by_data: f64,
-    /// Of the data: relative change over that of the number, or per unit.
+    /// Relative change of each datum over that of the number, or per unit.
     pub sensitivity: [f64; DATA],
 }
 
-/// One printed fact.
+/// One printed datum.
 #[derive(Debug, Serialize)]
 pub struct Datum {
     pub name: String,
     pub unit: &'static str,
     pub printed: f64,
-    /// Standard error that the fit assumes of it.
+    /// Its standard error in the fit.
     pub doubt: f64,
     /// With the digits that are written.
     pub value: f64,
 }
 
-/// The numbers on the scale of their doubts.
+/// The numbers on the scale of their errors: logarithms or values.
 fn scaled(data: &VehicleData) -> DVector<f64> {
     let scaled = values(data).into_iter().zip(names()).map(|(value, (.., scale))| match scale {
         Scale::Ratio => libm::log(value),
@@ -64,8 +64,7 @@ fn scaled(data: &VehicleData) -> DVector<f64> {
     DVector::from_iterator(names().len(), scaled)
 }
 
-/// Relative changes of the data with each number on the scale of its doubt, one column per
-/// number.
+/// Relative changes of the data per number, on the scale of its errors, one column per number.
 pub fn sensitivity(model: &Model, vehicle: &VehicleData) -> Result<DMatrix<f64>> {
     let at = scaled(vehicle);
     let free = vec![false; at.len()];
@@ -80,7 +79,7 @@ pub fn sensitivity(model: &Model, vehicle: &VehicleData) -> Result<DMatrix<f64>>
     jacobian(&logarithms, &at, &free).ok_or_else(|| anyhow!("no derivative at the solution"))
 }
 
-/// Of the full vehicle with its tanks, m; the structure has its own at the published place.
+/// Mass centre of the full vehicle with its tanks, m.
 fn mass_centre(data: &VehicleData) -> f64 {
     let liquid: f64 = data.tank.iter().map(|tank| tank.share.value * tank.centre_m.value).sum();
     let part = data.mass.propellant_fraction.value;
@@ -98,7 +97,7 @@ impl Number {
 }
 
 impl Report {
-    /// What is known of each number, for the file.
+    /// Standard error of each number, for the file.
     pub fn known(&self) -> Vec<String> {
         self.numbers.iter().map(|number| number.within(number.error)).collect()
     }
@@ -107,7 +106,7 @@ impl Report {
         let Solution { fit, vehicle } = solution;
         let lost = || anyhow!("no derivative at the solution");
         let free = [false; COORDINATES];
-        // Held coordinates, the centres on their nodes, count as free: the data are asked about them.
+        // Centres, fixed to nodes in the last fit, count as free here.
         let data = jacobian(&|p| model.residual(p), &fit.point, &free).ok_or_else(lost)?;
         let spread = |p: &DVector<f64>| Some(scaled(&model.prior.vehicle(p)));
         let prior_point = DVector::zeros(COORDINATES);
@@ -127,7 +126,7 @@ impl Report {
                 prior_error: before.row(i).norm(),
                 value,
                 error: variance.sqrt(),
-                // Both at the solution: the share follows from the centres, and not linearly.
+                // Both at the solution: the share depends nonlinearly on the centres.
                 decided_by_data: 1.0 - variance / after.row(i).norm_squared(),
                 sensitivity: std::array::from_fn(|k| sensitivity[(k, i)]),
             }
@@ -153,16 +152,16 @@ impl Report {
 
     pub fn text(&self) -> String {
         format!(
-            "The most ordinary beam and tanks that give Table 1 and the growth of the short period from\n\
+            "Beam and tanks nearest to the prior that give Table 1 and the growth of the short period from\n\
              even to sloshing mass in Table 2, with the published coefficients. Prior: EI of unknown\n\
              level and tilt (a factor of ten), each station within sqrt(2) of the geometric mean of its\n\
-             neighbours; a tank in the middle of either beam, half as long as the beam (e^0.5), its\n\
+             neighbours; a tank in the middle of each beam, half as long as the beam (e^0.5), its\n\
              centre within a quarter of the beam; the mass centre within 1 % of the length of the\n\
-             published 55 ft. Sum of squared departures over doubts: {}\n\
+             published 55 ft. Sum of squared deviations over prior variances: {}\n\
              Mass centre of the full vehicle, m: published {}, identified {}\n\n\
              Numbers; standard errors as factors (x/) or differences (+-)\n{}\n\
-             Printed facts\n{}\n\
-             Change of the printed facts, per cent, for 10 % of EI or length, 1 m of centre, 0.1 of share\n{}",
+             Printed data\n{}\n\
+             Change of the printed data, per cent, for 10 % of EI or length, 1 m of centre, 0.1 of share\n{}",
             number(self.distance),
             number(self.mass_centre_m[0]),
             number(self.mass_centre_m[1]),
@@ -173,13 +172,21 @@ impl Report {
     }
 
     fn number_table(&self) -> String {
-        let mut rows =
-            vec![row(["number", "unit", "prior", "", "identified", "", "decided by the data", ""])];
+        let mut rows = vec![row([
+            "number",
+            "unit",
+            "prior",
+            "",
+            "identified",
+            "",
+            "determined by the data",
+            "",
+        ])];
         for line in &self.numbers {
             let verdict = match line.decided_by_data {
                 part if part >= DETERMINED => "determined",
-                part if part >= NARROWED => "narrowed",
-                _ => "guessed",
+                part if part >= NARROWED => "constrained",
+                _ => "prior",
             };
             rows.push(vec![
                 line.name.clone(),
@@ -196,7 +203,8 @@ impl Report {
     }
 
     fn data_table(&self) -> String {
-        let mut rows = vec![row(["datum", "unit", "printed", "doubt", "identified", "error"])];
+        let mut rows =
+            vec![row(["datum", "unit", "printed", "standard error", "identified", "error"])];
         for line in &self.data {
             rows.push(vec![
                 line.name.clone(),

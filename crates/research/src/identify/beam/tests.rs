@@ -1,4 +1,4 @@
-//! Known numbers come back, and slopes are those of Rayleigh's quotient.
+//! Known numbers are recovered, and sensitivities agree with Rayleigh's quotient.
 
 use super::model::{DATA, Model, printed};
 use super::numbers::{COORDINATES, STATIONS, names, rounded, values};
@@ -19,7 +19,7 @@ fn model() -> Model {
 const FREE: [usize; DATA] = [0, 1, 4, 9, 10, 11, 13];
 
 #[test]
-fn seven_numbers_come_back_from_seven_facts() {
+fn seven_numbers_are_recovered_from_seven_data() {
     let mut truth = DVector::zeros(COORDINATES);
     for (i, value) in FREE.into_iter().zip([-0.1, 0.15, 0.3, -0.2, 0.25, 0.3, 0.5]) {
         truth[i] = value;
@@ -63,7 +63,7 @@ fn slopes_by_stiffness_add_up_to_half_of_the_beams_energy() {
     }
 }
 
-/// The slopes foretell what a change of a per cent does.
+/// The sensitivities predict the effect of a change of one per cent.
 #[test]
 fn slopes_are_those_of_finite_changes() {
     let data = Data::embedded().unwrap();
@@ -75,7 +75,7 @@ fn slopes_are_those_of_finite_changes() {
     let after = model.found(&moved).unwrap();
     for i in 0..DATA {
         let (change, told) = (libm::log(after[i] / before[i]), slopes[(i, 4)] * libm::log(1.01));
-        // The second derivative leaves a per cent of it.
+        // The second derivative contributes about a per cent.
         assert!((change - told).abs() < 0.02 * told.abs() + 1e-6, "{change} is not {told}");
     }
 }
@@ -88,11 +88,11 @@ fn a_file_that_is_already_right_stays_as_it_is() {
     let known: Vec<_> = names().iter().map(|_| "all digits".to_string()).collect();
     let again = super::file(text, &data, &known).unwrap();
     assert_eq!(values(&VehicleData::parse("again", &again).unwrap()), values(&data));
-    // All else stays to the letter.
+    // Everything else is unchanged.
     let rest = |text: &str| -> Vec<String> {
         let own = |line: &&str| !line.contains("identify beam");
         text.lines().filter(own).map(str::to_string).collect()
     };
     assert_eq!(rest(&again), rest(text));
-    assert_eq!(again.matches("all digits").count(), names().len() + 1, "share stands twice");
+    assert_eq!(again.matches("all digits").count(), names().len() + 1, "the share occurs twice");
 }

@@ -1,6 +1,6 @@
-//! How each claim is tested. A direction is a matter of signs: it holds if at every step of the way
-//! every root that is meant stands on the claimed side of its start; by how much is said, and not
-//! judged. Only where the paper has words for the size, "slightly", "little", "hardly", are there limits.
+//! The criterion of each claim. A claimed direction holds if, at every step of the sweep, every root concerned
+//! is on the claimed side of its start; the size of the change is stated but not judged. Only the words
+//! "slightly", "little" and "hardly" have limits.
 
 use super::{Evidence, Measure, Outcome};
 use crate::reproduce::inertia_laws::{Law, Laws};
@@ -10,11 +10,11 @@ use crate::reproduce::sweep::{Branch, Sweep};
 use crate::reproduce::verdict::Verdict;
 use nalgebra::Complex;
 
-/// Relative change, against the start, below which something "hardly moves".
+/// Relative change from the start below which something "hardly moves".
 pub const HARDLY: f64 = 0.02;
-/// Above this, a change is more than slight, and at least substantial.
+/// Relative change above which something no longer changes "little".
 const SUBSTANTIAL: f64 = 0.1;
-/// Twice substantial and more: no longer "slight" in any reading.
+/// Relative change above which something no longer moves "slightly".
 pub const SLIGHT: f64 = 0.2;
 /// The sloshing frequencies of claims (g) to (j), rad/s.
 const NEAR: f64 = 5.0;
@@ -28,7 +28,7 @@ const IM: Part = |value| value.im;
 /// Distance from the imaginary axis.
 const OFF: Part = |value| value.re.abs();
 
-/// Whether all values but the first lie on the side of the first where the last one lies.
+/// Whether all values are on the same side of the first as the last one.
 fn steady(values: &[f64]) -> bool {
     let [start, rest @ ..] = values else { return true };
     let end = rest.last().unwrap_or(start);
@@ -51,7 +51,7 @@ fn whole(sweep: &Sweep) -> [usize; 2] {
     [0, sweep.steps.len() - 1]
 }
 
-/// The poles of some names, over some steps.
+/// Measures of poles between two steps.
 fn poles(sweep: &Sweep, names: &[Name], what: &str, part: Part, steps: [usize; 2]) -> Vec<Measure> {
     let branches = names.iter().filter_map(|name| sweep.pole(*name));
     branches.map(|branch| measure(what, branch, part, steps)).collect()
@@ -70,14 +70,14 @@ fn direction(measures: &[Measure], sign: f64, otherwise: &str) -> Verdict {
     let mut changes: Vec<f64> = measures.iter().map(|measure| measure.change).collect();
     changes.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
     let (Some(least), Some(most)) = (changes.first(), changes.last()) else {
-        return not("there is no such pole or zero at the start of the way");
+        return not("there is no such pole or zero at the start of the range");
     };
     let against = changes.iter().rfind(|change| sign * **change <= 0.0);
     if let Some(change) = against {
         return not(format!("{otherwise}, by {:.1} %", 100.0 * change.abs()));
     }
     if measures.iter().any(|measure| !measure.steady) {
-        return sign_only("at the end; on the way it is on the other side of its start");
+        return sign_only("at the end; in between it is on the other side of its start");
     }
     let (least, most) = (percent(*least), percent(*most));
     let by = if least == most { most } else { format!("{least} to {most}") };
@@ -106,7 +106,7 @@ pub fn pole_moves_right(evidence: &Evidence) -> Outcome {
     };
     let Laws { laws, .. } = evidence.laws;
     let of = |law: &Law| measured(format!("the same, {}", law.name), &law.poles);
-    // The first is that of the sweep.
+    // The first law is that of the sweep.
     measures.extend(laws.iter().skip(1).map(of));
     Outcome { verdict, measures, note: Some(laws_in_words(evidence.laws)) }
 }
@@ -117,15 +117,15 @@ fn laws_in_words(of: &Laws) -> String {
     let share = |ratio: f64| format!("{:.0} %", 100.0 * ratio);
     let needs = match (of.still, of.slight) {
         (Some(still), Some(slight)) => format!(
-            "\"Slightly to the right\" needs an empty vehicle with {} to {} of the full one's inertia",
+            "\"Slightly to the right\" requires an inertia of the empty vehicle of {} to {} of the full one",
             share(slight),
             share(still)
         ),
-        _ => "No inertia makes it move slightly to the right".into(),
+        _ => "No inertia moves it slightly to the right".into(),
     };
     format!(
-        "It rests on how inertia and mass centre go with fuel: {}. {needs}; the densities give {}, and \
-         the paper does not say what it used.",
+        "The result depends on how inertia and mass centre vary with fuel: {}. {needs}; the densities give {}, and \
+         the paper does not say what it uses.",
         each.join("; "),
         share(of.empty_over_full)
     )
@@ -138,7 +138,7 @@ pub fn zero_moves_away(sweep: &Sweep) -> Outcome {
     }
     let right = &measures[..measures.len().min(1)];
     let verdict = direction(right, 1.0, "it moves towards the axis");
-    // The paper may mean the complex zeros by "the zero": they are shown, and not judged.
+    // "The zero" of the paper may mean the complex zeros: they are shown but not judged.
     let first = measures.len();
     for name in [Name::Slosh(0), Name::Slosh(1), Name::Flexible(0)] {
         let branch = sweep.zero(name);
@@ -149,7 +149,7 @@ pub fn zero_moves_away(sweep: &Sweep) -> Outcome {
     let missed = matches!(verdict, Verdict::NotReproduced { .. });
     let note = match away {
         Verdict::Reproduced { by: Some(by), .. } if missed => Some(format!(
-            "If the complex zeros of slosh and first flexible mode are meant, it holds: they move away from \
+            "The claim holds for the complex zeros of slosh and first flexible mode: they move away from \
              the axis, by {by}."
         )),
         _ => None,
@@ -178,7 +178,7 @@ pub fn poles_approach(evidence: &Evidence) -> Outcome {
     let near = sweep.step_at(NEAR);
     let mut measures = poles(sweep, &SHORT_PERIOD, "off the axis, 2 to 5 rad/s", OFF, [0, near]);
     let to_there = direction(&measures, -1.0, "they move away from it");
-    measures.extend(poles(sweep, &SHORT_PERIOD, "off the axis, whole way", OFF, whole(sweep)));
+    measures.extend(poles(sweep, &SHORT_PERIOD, "off the axis, whole range", OFF, whole(sweep)));
     // Both: poles that come back after 5 rad/s do not move gradually towards the axis.
     let verdict = match direction(&measures, -1.0, "they move away from it") {
         Verdict::Reproduced { .. } => to_there,
@@ -218,12 +218,12 @@ pub fn flexible_moves_left(evidence: &Evidence) -> Outcome {
         measures.push(measured("share of slosh in its energy".into(), share));
     }
     let note = beam_at_the_end(sweep).map(|beam| {
-        let now = measure("rate of decay of the branch that ends as beam", beam, OFF, steps);
+        let now = measure("rate of decay of the branch that ends mostly beam", beam, OFF, steps);
         let note = format!(
-            "The branch is followed through the exchange of modes and ends mostly liquid. The \
+            "The branch is tracked through the veering of the modes and ends mostly liquid. The \
              branch that starts as {} ends mostly beam, {:.0} % liquid, and its rate of decay \
-             changes by {} over the same range: the claim is true of the branch, not of \
-             whichever mode bends the beam most.",
+             changes by {} over the same range: the claim holds for the branch, not for \
+             the mode that bends the beam most.",
             beam.name,
             100.0 * beam.slosh[steps[1]],
             percent(now.change)
@@ -246,7 +246,7 @@ fn beam_at_the_end(sweep: &Sweep) -> Option<&Branch> {
 pub fn zero_approaches(evidence: &Evidence) -> Outcome {
     let sweep = evidence.frequency;
     let fast = [sweep.step_at(FAST), sweep.steps.len() - 1];
-    let ways = [("whole way", whole(sweep)), ("from 20 rad/s on", fast)];
+    let ways = [("whole range", whole(sweep)), ("from 20 rad/s on", fast)];
     let zero = sweep.zero(Name::RightZero);
     let measures: Vec<_> = ways
         .into_iter()

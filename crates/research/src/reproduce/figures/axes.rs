@@ -1,4 +1,4 @@
-//! A pair of axes, and what is drawn between them in pixels.
+//! A pair of axes, and drawing between them in pixels.
 
 use ahv_tool::figure::{Area, Drawn, FONT, FRAME, GRID, decimals, label};
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
@@ -10,10 +10,10 @@ const HEAD: u32 = 34;
 pub const LEFT: u32 = 84;
 const BOTTOM: u32 = 58;
 const RIGHT: u32 = 16;
-/// Of all text; the page shows a figure at three quarters of its size at least.
+/// Size of all text; the page shows figures at no less than three quarters of their size.
 pub const TEXT: u32 = 20;
 const LABELS: usize = 6;
-/// Labels on an axis that is shorter than this at scale one.
+/// Length at scale one below which an axis has few labels.
 const SHORT: u32 = 200;
 const FEW_LABELS: usize = 4;
 
@@ -25,7 +25,7 @@ pub struct Axes<'a> {
     pub y: [f64; 2],
 }
 
-/// What a length on the axes means.
+/// Scale of the axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     Linear,
@@ -41,7 +41,7 @@ pub struct Plot<B: DrawingBackend> {
     y: [f64; 2],
 }
 
-/// Range around values with some air, never smaller than `least`.
+/// Range of values with a margin, never smaller than `least`.
 pub fn range(values: impl Iterator<Item = f64> + Clone, least: f64) -> [f64; 2] {
     let min = values.clone().fold(f64::INFINITY, f64::min);
     let max = values.fold(f64::NEG_INFINITY, f64::max);
@@ -159,7 +159,7 @@ impl<B: DrawingBackend> Plot<B> {
         (width as i32, height as i32)
     }
 
-    /// Where a value is, in pixels.
+    /// Position of a value, in pixels.
     pub fn place(&self, (x, y): (f64, f64)) -> (i32, i32) {
         let (width, height) = self.size();
         let share = |value: f64, [from, to]: [f64; 2]| (value - from) / (to - from);

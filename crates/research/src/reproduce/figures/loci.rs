@@ -1,4 +1,4 @@
-//! Figs 6 to 8: how poles and zeros move.
+//! Figs 6 to 8: loci of poles and zeros.
 
 use super::axes::{Axes, LEFT, Plot, TEXT, range, text};
 use super::marker::{self, Look};
@@ -86,7 +86,7 @@ impl Drawing for Loci<'_> {
                 all.iter().filter(|b| if wanted { low(b) } else { high(b) }).collect()
             };
             let both = [pick("poles"), pick("zeros")];
-            // One range for both: the eye compares poles with zeros.
+            // The same range for both, for comparison.
             let values = || both.iter().flatten().flat_map(|branch| &branch.values);
             let mut x = range(values().map(|value| value.re), 0.1);
             let enlarged = sweep.parameter == Parameter::Fuel && titles[0].starts_with("(e)");
@@ -114,7 +114,7 @@ impl Drawing for Loci<'_> {
 /// Where the enlarged part of a panel begins, per cent of its width.
 const INSET: i32 = 43;
 
-/// A real root: the parameter upwards, so that its way along the axis does not hide itself.
+/// A real root over the parameter, which is upwards, so that the branch does not overlap itself.
 fn real_panel<B: DrawingBackend>(
     area: &Area<B>,
     title: &str,
@@ -132,7 +132,7 @@ where
         .zip(&sweep.steps)
         .map(|(value, step)| (value.re, parameter.shown(*step)))
         .collect();
-    // At least 2 % of the value: what hardly moves should look so.
+    // At least 2 % of the value, so that small changes look small.
     let least = 0.02 * branch.first().norm();
     let x = range(points.iter().map(|(re, _)| *re), least);
     let y = range(points.iter().map(|(_, step)| *step), 0.0);
@@ -145,8 +145,7 @@ fn places(branch: &Branch) -> Vec<(f64, f64)> {
     branch.values.iter().map(|v| (v.re, v.im)).collect()
 }
 
-/// While the tanks are not yet low, the sloshing frequencies stay together and turn back: larger, in
-/// the free part of the panel.
+/// Enlarges the part in which the sloshing frequencies are close together, in the free part of the panel.
 fn enlarge<B: DrawingBackend>(
     plot: &Plot<B>,
     branches: &[&Branch],

@@ -1,4 +1,4 @@
-//! Shapes that tell curves apart without colour.
+//! Marker shapes, which distinguish curves without colour.
 
 use crate::reproduce::roots::Name;
 use ahv_tool::figure::{Area, COLOURS, Drawn};
@@ -13,14 +13,14 @@ pub enum Shape {
     Down,
 }
 
-/// How a branch is drawn.
+/// Colour and marker of a branch.
 #[derive(Debug, Clone, Copy)]
 pub struct Look {
     pub colour: RGBColor,
     pub shape: Shape,
 }
 
-/// Of five modes in a row.
+/// Colour and marker of one of five modes.
 pub fn look(number: usize) -> Look {
     let shapes = [Shape::Circle, Shape::Square, Shape::Diamond, Shape::Up, Shape::Down];
     Look { colour: COLOURS[number % 5], shape: shapes[number % 5] }
@@ -39,7 +39,7 @@ impl Look {
 impl Shape {
     /// Corners around the middle.
     fn corners(self, (x, y): (i32, i32), radius: f64) -> Vec<(i32, i32)> {
-        // Of equal area, more or less.
+        // Of about equal area.
         let (count, turn, size) = match self {
             Self::Circle => (24, 0.0, 1.0),
             Self::Square => (4, 45.0, 1.22),
@@ -73,8 +73,8 @@ pub fn draw<B: DrawingBackend>(
     area.draw(&PathElement::new(corners, look.colour.stroke_width(3 * scale / 2)))
 }
 
-/// An arrowhead that points along a curve given in pixels, in the middle of its length; none on a
-/// curve that the markers at its ends hide.
+/// An arrowhead along a curve in pixels, in the middle of its length; none on a curve hidden by the markers at its
+/// ends.
 pub fn arrow<B: DrawingBackend>(
     area: &Area<B>,
     colour: RGBColor,
@@ -89,7 +89,7 @@ pub fn arrow<B: DrawingBackend>(
     if total < 26.0 * unit {
         return Ok(());
     }
-    // From where to where the head reaches along the curve.
+    // Start and end of the arrowhead along the curve.
     let mut at = [0.5 * total - 6.0 * unit, 0.5 * total + 6.0 * unit].into_iter().map(|way| {
         let mut passed = 0.0;
         let index = points.windows(2).position(|pair| {

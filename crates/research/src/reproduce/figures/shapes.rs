@@ -30,13 +30,13 @@ impl Drawing for Stiffness<'_> {
         let axes = Axes {
             title: "Bending stiffness EI per metre of width: identified stations, 500 elements",
             names: ["x from the nose, m", "EI, GN m²/m"],
-            // Some air for the markers at the ends.
+            // A margin for the markers at the ends.
             x: [-0.02, 1.02].map(|share| share * self.beam.length_m()),
             y: [0.0, top],
         };
         let plot = axes.draw(&inner, scale)?;
         tanks(&plot, self.data)?;
-        // Each element has its own stiffness: the steps are what is computed with.
+        // Steps, as each element has a constant stiffness.
         let steps: Vec<_> = self
             .beam
             .stiffness
@@ -55,7 +55,7 @@ impl Drawing for Stiffness<'_> {
     }
 }
 
-/// The extent of the tanks, behind everything else.
+/// Draws the extent of the tanks in the background.
 fn tanks<B: DrawingBackend>(plot: &Plot<B>, data: &VehicleData) -> Drawn<B> {
     let (_, height) = plot.size();
     for tank in &data.tank {
@@ -63,7 +63,7 @@ fn tanks<B: DrawingBackend>(plot: &Plot<B>, data: &VehicleData) -> Drawn<B> {
         let [left, right] = [-half, half].map(|d| plot.place((tank.centre_m.value + d, 0.0)).0);
         let corners = [(left, 1), (right, height - 1)];
         plot.area.draw(&Rectangle::new(corners, FRAME.mix(0.12).filled()))?;
-        // Curves are low there.
+        // Free of curves.
         let at = ((left + right) / 2, 14 * plot.scale as i32);
         plot.write(&format!("{} tank", tank.name), at, HPos::Center)?;
     }

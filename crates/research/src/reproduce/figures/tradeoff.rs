@@ -1,4 +1,4 @@
-//! Misfit against distance: what the tables cost in plausibility.
+//! Misfit against distance from the published numbers.
 
 use super::axes::{Axes, Scale};
 use super::marker::{self, look};
@@ -8,15 +8,15 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 
 pub const SIZE: (u32, u32) = (1000, 510);
-/// Weights of this many decades are written beside their place.
+/// Weights of this many decades are labelled.
 const WRITTEN: f64 = 2.0;
 
-/// Neighbours beyond the knee that are further apart, in decades of distance, lie in two valleys.
+/// Neighbours beyond the knee further apart than this, in decades of distance, are different local minima.
 const VALLEY: f64 = 0.5;
 
 pub struct Figure<'a>(pub &'a TradeOff);
 
-/// Some air on both sides of positive values, in decades.
+/// Range of positive values with a margin, in decades.
 fn decades(values: impl Iterator<Item = f64> + Clone, [below, above]: [f64; 2]) -> [f64; 2] {
     let min = values.clone().fold(f64::INFINITY, f64::min);
     let max = values.fold(0.0, f64::max);
@@ -33,7 +33,7 @@ impl Drawing for Figure<'_> {
         let inner = area.margin(4 * scale, 4 * scale, 4 * scale, 4 * scale);
         let axes = Axes {
             title: "Misfit to Tables 2 and 3 against distance from the published numbers",
-            names: ["distance from parker2007: sum of (ln ratio / doubt)²", "misfit"],
+            names: ["distance from parker2007: sum of (ln ratio / sd)²", "misfit"],
             x: decades(places.iter().map(|place| place.distance), [0.3, 0.8]),
             y: decades(places.iter().map(|place| place.misfit), [0.12, 0.2]),
         };
@@ -46,7 +46,7 @@ impl Drawing for Figure<'_> {
             .collect();
         let style = COLOURS[0].stroke_width(2 * scale);
         for (i, pair) in points.windows(2).enumerate() {
-            // Between two valleys there is no compromise.
+            // Different local minima are connected by a dashed line.
             let far = i > trade_off.knee && pair[1].0 - pair[0].0 > VALLEY;
             match far {
                 true => plot.dashed(pair, (5, 5), style)?,

@@ -1,4 +1,4 @@
-//! How slosh and flexible modes give way to each other.
+//! Veering of slosh and flexible modes.
 
 use super::axes::{Axes, LEFT, range, text};
 use super::marker::{self, look};
@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 pub const SIZE: (u32, u32) = (1000, 1160);
-/// Modes, by frequency, that meet the sloshing frequency on its way.
+/// Number of lowest modes, whose frequencies the sloshing frequency passes.
 const LOW: usize = 3;
 
 /// One column per fuel level.
