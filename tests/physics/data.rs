@@ -7,6 +7,7 @@ use ahv::data::{
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Parameters;
+use ahv::fmu::Message;
 use ahv::vehicle::{Configuration, Vehicle, VehicleOptions};
 
 fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {
@@ -196,9 +197,8 @@ fn verif_a_trim_without_numbers_fails_at_once_and_says_so() {
         Vehicle::new(&data, &VehicleOptions { configuration: Configuration::Rigid, ..options });
     let error = trim(&vehicle.unwrap(), &options.condition).unwrap_err();
     assert!(matches!(error, Error::NotFinite { .. }), "{error}");
-    assert!(
-        error.to_string().contains("no finite accelerations at mach0 = 8, altitude0 = 25900 m")
-    );
+    let told = Message(error).to_string();
+    assert!(told.contains("no finite accelerations at mach0 = 8, altitude0 = 25900 m"), "{told}");
 }
 
 #[test]

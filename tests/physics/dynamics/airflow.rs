@@ -1,6 +1,7 @@
 //! Air in vertical motion.
 
 use crate::model::{builds, data, deviation, flight_with, vehicle};
+use ahv::error::{Error, LimitedKind};
 use ahv::flight::Flight;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{Condition, Configuration, NOMINAL, RIGID, STATES, State, Vehicle};
@@ -106,7 +107,8 @@ fn verif_the_envelope_is_that_of_the_incidence_to_the_moving_air() {
     assert!(up(&mut gusty(30.0, 0.0)).unwrap() > up(&mut gusty(0.0, 0.0)).unwrap());
     // 10 degrees of incidence end the curve fits: here from the first instant on.
     let mut flight = gusty(150.0, 0.1);
-    let error = flight.advance(0.01).unwrap_err().to_string();
-    assert!(error.contains("alpha"), "{error}");
+    let error = flight.advance(0.01).unwrap_err();
+    let Error::Envelope { limited, .. } = &error else { panic!("{error}") };
+    assert_eq!(limited.kind, LimitedKind::Incidence);
     assert_eq!(flight.time(), 0.0);
 }

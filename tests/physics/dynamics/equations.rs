@@ -8,6 +8,7 @@ use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::error::{Error, LimitedKind};
 use ahv::flight::Inputs;
+use ahv::fmu::Message;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{CONTROLS, Condition, Configuration, NOMINAL, STATES, State, Vehicle};
 use proptest::prelude::*;
@@ -71,7 +72,8 @@ fn verif_an_impossible_trim_names_the_limit() {
     }
     // Inside the envelope, but no thrust climbs that steeply.
     let steep = Condition { mach: 8.0, altitude: 25_900.0, gamma: 1.2 };
-    let error = trim(&vehicle(Configuration::Rigid), &steep).unwrap_err().to_string();
+    let error = trim(&vehicle(Configuration::Rigid), &steep).unwrap_err();
+    let error = Message(error).to_string();
     assert!(error.contains("phi = ") && error.contains("gamma0 = 1.2"), "{error}");
     // And where the air is too thin for any incidence there is no solution at all.
     let thin = Condition { mach: 6.2, altitude: 41_000.0, gamma: 0.0 };
