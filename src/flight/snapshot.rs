@@ -62,12 +62,13 @@ impl Snapshot {
         let (state, rest) = rest.split_first_chunk()?;
         let (values, rest) = rest.split_first_chunk()?;
         let (derivatives, []) = rest.as_chunks() else { return None };
+        let ahead = match *ahead {
+            0.0 => false,
+            1.0 => true,
+            _ => return None,
+        };
         Some(Self {
-            inputs: Inputs {
-                values: *values,
-                derivatives: derivatives.try_into().ok()?,
-                ahead: *ahead != 0.0,
-            },
+            inputs: Inputs { values: *values, derivatives: derivatives.try_into().ok()?, ahead },
             state: *state,
             time: *time,
             integrator: Integrator { tolerance: *tolerance, proposal: *proposal },

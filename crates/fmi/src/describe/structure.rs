@@ -13,25 +13,32 @@ pub fn index(row: usize) -> usize {
 }
 
 pub fn model_structure<M: Model>(xml: &mut Xml) -> io::Result<()> {
-    let rows = |wanted: fn(Role<M>) -> bool| {
-        M::VARIABLES.iter().enumerate().filter(move |(_, variable)| wanted(variable.role))
-    };
-    xml.parent("Outputs", &[], |xml| {
-        rows(|role| matches!(role, Role::Output(_) | Role::OutputState(_)))
-            .try_for_each(|(row, variable)| unknown::<M>(xml, row, variable.dependencies))
-    })?;
-    xml.parent("Derivatives", &[], |xml| {
-        rows(|role| matches!(role, Role::Derivative(_)))
-            .try_for_each(|(row, variable)| unknown::<M>(xml, row, variable.dependencies))
-    })?;
-    xml.parent("InitialUnknowns", &[], |xml| {
-        rows(|role| !matches!(role, Role::Input(_) | Role::Parameter { .. }))
-            .try_for_each(|(row, variable)| initial_unknown(xml, row, variable))
-    })
+    let is_output = |role| matches!(role, Role::Output(_) | Role::OutputState(_));
+    let is_derivative = |role| matches!(role, Role::Derivative(_));
+    let is_unknown = |role| !matches!(role, Role::Input(_) | Role::Parameter { .. });
+    unknowns::<M>(xml, "Outputs", is_output, unknown)?;
+    unknowns::<M>(xml, "Derivatives", is_derivative, unknown)?;
+    unknowns::<M>(xml, "InitialUnknowns", is_unknown, initial_unknown)
+}
+
+/// A list of the variables with the wanted roles; the schema has no empty ones.
+fn unknowns<M: Model>(
+    xml: &mut Xml,
+    name: &str,
+    wanted: fn(Role<M>) -> bool,
+    write: fn(&mut Xml, usize, &Variable<M>) -> io::Result<()>,
+) -> io::Result<()> {
+    let rows = M::VARIABLES.iter().enumerate();
+    let mut rows = rows.filter(|(_, variable)| wanted(variable.role)).peekable();
+    if rows.peek().is_none() {
+        return Ok(());
+    }
+    xml.parent(name, &[], |xml| rows.try_for_each(|(row, variable)| write(xml, row, variable)))
 }
 
 /// An output or derivative: on which states and inputs it depends, and how.
-fn unknown<M: Model>(xml: &mut Xml, row: usize, dependencies: Dependencies) -> io::Result<()> {
+fn unknown<M: Model>(xml: &mut Xml, row: usize, variable: &Variable<M>) -> io::Result<()> {
+    let dependencies = variable.dependencies;
     let kinds = [
         (dependencies.dependent, "dependent"),
         (dependencies.fixed, "fixed"),
