@@ -101,8 +101,9 @@ impl SloshingTank {
     /// Fore and aft tank, in this order.
     ///
     /// # Errors
-    /// [`Error::Value`] if the frequency is positive but below [`MIN_FREQUENCY_RAD_PER_S`], or if it is
-    /// to follow from the geometry and the effective gravity is not positive (orbital speed and above).
+    /// [`Error::SloshFrequency`] if the frequency is positive but below [`MIN_FREQUENCY_RAD_PER_S`];
+    /// [`Error::NoSloshFrequency`] if it is to follow from the geometry and the effective gravity is not
+    /// positive (orbital speed and above).
     pub fn pair(
         data: &VehicleData,
         fuel_fraction: f64,

@@ -66,7 +66,7 @@ impl Body {
     /// Coefficients of the equations of motion.
     ///
     /// # Errors
-    /// [`Error::Value`] if the tanks' geometry gives no sloshing frequency.
+    /// [`Error::NoSloshFrequency`] if the tanks' geometry gives no sloshing frequency.
     pub fn airframe(&self, definition: &VehicleDefinition) -> Result<Airframe, Error> {
         let Self { beam, oscillators, modes, strips, properties } = self;
         let VehicleDefinition { aero, options, .. } = definition;
