@@ -32,7 +32,15 @@ const STEPS: [Step; 17] = [
     }),
     ("documentation", Always, |_| {
         let mut doc = cargo();
-        doc.args(["doc", "--package", "ahv-fmu", "--package", "fmi-model", "--all-features", "--no-deps"]);
+        doc.args([
+            "doc",
+            "--package",
+            "ahv-fmu",
+            "--package",
+            "fmi-model",
+            "--all-features",
+            "--no-deps",
+        ]);
         check(doc.env("RUSTDOCFLAGS", "-D warnings"))
     }),
     ("Rust tests", Always, |_| {
