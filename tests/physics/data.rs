@@ -35,6 +35,26 @@ fn verif_the_files_in_the_library_are_as_a_user_would_have_to_write_them() {
     }
 }
 
+/// The file as the library carries it: what the FMU's GUID depends on.
+fn packed(text: &str) -> Vec<u8> {
+    postcard::to_stdvec(&VehicleData::parse("vehicle.toml", text).unwrap()).unwrap()
+}
+
+#[test]
+fn verif_numbers_identify_the_model_and_comments_and_sources_do_not() {
+    let text = VEHICLE.text;
+    let bare: String = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .map(|line| line.replace("source = \"", "source = \"reworded: ") + "\n")
+        .collect();
+    assert_ne!(bare, text);
+    assert_eq!(packed(&bare), VEHICLE.packed);
+    let higher = text.replacen("value = 25900", "value = 25901", 1);
+    assert_ne!(higher, text);
+    assert_ne!(packed(&higher), VEHICLE.packed);
+}
+
 #[test]
 fn verif_every_number_has_unit_source_and_status() {
     for text in [VEHICLE.text, EARTH.text, XU2015.text, PARKER2007.text, SHOCK_EXPANSION.text] {
