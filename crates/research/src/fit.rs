@@ -47,7 +47,8 @@ pub fn run(options: &Fit) -> Result<()> {
     let inputs = Inputs {
         vehicle: VehicleData::embedded(&VEHICLE)?,
         earth: EarthData::embedded(&EARTH)?,
-        published: AeroData::embedded(&PARKER2007)?,
+        // Sources are only in the TOML text.
+        published: AeroData::parse(PARKER2007.name, PARKER2007.text)?,
     };
     let result = regress(&inputs)?;
     let (text, compared) = text(&inputs, &result)?;
