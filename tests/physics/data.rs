@@ -7,7 +7,6 @@ use ahv::data::{
 use ahv::dynamics::trim::trim;
 use ahv::error::Error;
 use ahv::flight::Parameters;
-use ahv::fmu::Message;
 use ahv::vehicle::{Configuration, Vehicle, VehicleOptions};
 
 fn for_each_number(table: &toml::Table, path: &str, check: &mut impl FnMut(&str, &toml::Table)) {

@@ -1,7 +1,6 @@
 //! Air in vertical motion.
 
 use crate::model::{builds, data, deviation, flight_with, vehicle};
-use ahv::error::{Error, LimitedKind};
 use ahv::flight::Flight;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{

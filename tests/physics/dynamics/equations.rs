@@ -8,7 +8,6 @@ use ahv::dynamics::linear::LinearModel;
 use ahv::dynamics::trim::trim;
 use ahv::error::{Error, LimitedKind};
 use ahv::flight::Inputs;
-use ahv::fmu::Message;
 use ahv::solve::{Dual, Scalar};
 use ahv::vehicle::{
     ALPHA, CONTROLS, Condition, Configuration, GAMMA, H, NOMINAL, Q, STATES, State, V, Vehicle,
