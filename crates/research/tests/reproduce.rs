@@ -79,7 +79,7 @@ fn what_is_called_reproduced_holds_the_aim_of_its_kind() {
     }
     assert!(reproduced > 10, "{reproduced}");
     let markdown = fs::read_to_string(directory.path().join("report.md")).unwrap();
-    assert!(markdown.contains("A number is reproduced within the limit of its kind"));
+    assert!(markdown.contains("A number is reproduced if it is within the limit of its kind"));
 }
 
 /// Verdicts of the default set. (b): the pole moves by far more than slightly. (e): the real zero moves
