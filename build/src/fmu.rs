@@ -52,7 +52,7 @@ impl Fmu {
             bail!("{name}: the modelIdentifier {identifier:?} is not a C identifier");
         }
         let host = host()?;
-        let binary = format!("binaries/{}/{identifier}.{}", host.name, host.ending);
+        let binary = host.binary(identifier);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is missing");

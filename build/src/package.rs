@@ -217,8 +217,8 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     files.insert("model.png".to_string(), icon("vehicle")?);
     let mut machines = Vec::new();
     for Library { platform, content, binary } in libraries {
-        let name = format!("binaries/{}/{MODEL_IDENTIFIER}.{}", platform.name, platform.ending);
-        machines.push(platform.machines(binary.glibc));
+        let name = platform.binary(MODEL_IDENTIFIER);
+        machines.push(platform::machines(*platform, binary.glibc));
         files.insert(name, content.clone());
     }
     let page = documentation::html(&machines)?;

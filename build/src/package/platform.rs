@@ -1,91 +1,30 @@
-//! Platforms and their folder names in an FMU.
-//!
-//! FMI 2.0 has names for x86-64 only; for other processors the names of FMI 3.0 are used.
+//! The platforms that the tool builds for, and what users are told of them.
 
 use super::binary::{GLIBC, Glibc};
 use anyhow::{Context, Result, bail};
+use fmi_model::platform::PLATFORMS;
+pub use fmi_model::platform::{LINUX, Platform, WINDOWS};
 use std::env::consts::{ARCH, OS};
 use std::path::PathBuf;
 
-/// A platform of an FMU.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Platform {
-    /// Folder below `binaries`.
-    pub name: &'static str,
-    /// File extension of a library.
-    pub ending: &'static str,
-    /// Rust's names of operating system, architecture and target.
-    pub os: &'static str,
-    pub arch: &'static str,
-    pub triple: &'static str,
-}
-
-pub const LINUX: Platform = Platform {
-    name: "linux64",
-    ending: "so",
-    os: "linux",
-    arch: "x86_64",
-    triple: "x86_64-unknown-linux-gnu",
-};
-pub const WINDOWS: Platform = Platform {
-    name: "win64",
-    ending: "dll",
-    os: "windows",
-    arch: "x86_64",
-    triple: "x86_64-pc-windows-gnu",
-};
-const MACOS: Platform = Platform {
-    name: "darwin64",
-    ending: "dylib",
-    os: "macos",
-    arch: "x86_64",
-    triple: "x86_64-apple-darwin",
-};
-const PLATFORMS: [Platform; 6] = [
-    LINUX,
-    WINDOWS,
-    MACOS,
-    Platform {
-        name: "aarch64-linux",
-        arch: "aarch64",
-        triple: "aarch64-unknown-linux-gnu",
-        ..LINUX
-    },
-    Platform {
-        name: "aarch64-windows",
-        arch: "aarch64",
-        triple: "aarch64-pc-windows-msvc",
-        ..WINDOWS
-    },
-    Platform { name: "aarch64-darwin", arch: "aarch64", triple: "aarch64-apple-darwin", ..MACOS },
-];
-
 /// The platform of this machine.
 pub fn host() -> Result<Platform> {
-    of(OS, ARCH).with_context(|| format!("FMI has no platform name for {OS} on {ARCH}"))
+    Platform::of(OS, ARCH).with_context(|| format!("FMI has no platform name for {OS} on {ARCH}"))
 }
 
-/// The platform with Rust's names of operating system and architecture.
-fn of(os: &str, arch: &str) -> Option<Platform> {
-    PLATFORMS.into_iter().find(|platform| (platform.os, platform.arch) == (os, arch))
-}
-
-impl Platform {
-    /// Description of the supported machines; `glibc` is the newest version that the library needs. Versions
-    /// below [`GLIBC`] are not promised.
-    pub fn machines(self, glibc: Option<Glibc>) -> String {
-        let system = match self.os {
-            "linux" => "Linux",
-            "windows" => "Windows",
-            _ => "macOS",
-        };
-        let processor = if self.arch == "x86_64" { "x86-64" } else { "ARM64" };
-        let with = glibc.map(|glibc| glibc.max(GLIBC));
-        let with = with.map_or(String::new(), |(major, minor)| {
-            format!(" with glibc {major}.{minor} or newer")
-        });
-        format!("{system} ({processor}){with}")
-    }
+/// Description of the supported machines; `glibc` is the newest version that the library needs. Versions
+/// below [`GLIBC`] are not promised.
+pub fn machines(platform: Platform, glibc: Option<Glibc>) -> String {
+    let system = match platform.os {
+        "linux" => "Linux",
+        "windows" => "Windows",
+        _ => "macOS",
+    };
+    let processor = if platform.arch == "x86_64" { "x86-64" } else { "ARM64" };
+    let with = glibc.map(|glibc| glibc.max(GLIBC));
+    let with = with
+        .map_or(String::new(), |(major, minor)| format!(" with glibc {major}.{minor} or newer"));
+    format!("{system} ({processor}){with}")
 }
 
 /// Parses a `--library` option, `platform=file`.
@@ -114,22 +53,22 @@ mod tests {
             ("macos", "x86_64", "darwin64"),
             ("macos", "aarch64", "aarch64-darwin"),
         ] {
-            let platform = of(os, arch).unwrap();
+            let platform = Platform::of(os, arch).unwrap();
             assert_eq!(platform.name, name);
             assert!(platform.triple.starts_with(arch));
         }
-        assert_eq!(of("linux", "s390x"), None);
-        let arm = of("linux", "aarch64").unwrap();
-        assert_eq!(arm.machines(Some((2, 36))), "Linux (ARM64) with glibc 2.36 or newer");
+        assert_eq!(Platform::of("linux", "s390x"), None);
+        let arm = Platform::of("linux", "aarch64").unwrap();
+        assert_eq!(machines(arm, Some((2, 36))), "Linux (ARM64) with glibc 2.36 or newer");
         assert_eq!(arm.ending, "so");
     }
 
     #[test]
     fn readers_are_told_the_glibc_that_the_library_needs() {
-        let told = |glibc| LINUX.machines(Some(glibc));
+        let told = |glibc| machines(LINUX, Some(glibc));
         assert_eq!(told((2, 36)), "Linux (x86-64) with glibc 2.36 or newer");
         assert_eq!(told((2, 14)), told(GLIBC));
-        assert!(!WINDOWS.machines(None).contains("glibc"));
+        assert!(!machines(WINDOWS, None).contains("glibc"));
     }
 
     #[test]

@@ -136,6 +136,8 @@ pub mod model;
 #[cfg(feature = "package")]
 pub mod package;
 mod pending;
+#[cfg(feature = "package")]
+pub mod platform;
 mod short;
 pub mod state;
 mod steps;

@@ -12,6 +12,7 @@
 use crate::archive::zip;
 use crate::describe::model_description;
 use crate::model::Model;
+use crate::platform::Platform;
 use std::collections::BTreeMap;
 use std::env::{self, consts};
 use std::fs;
@@ -45,33 +46,19 @@ pub enum PackageError {
     Zip(#[from] zip::result::ZipError),
 }
 
-/// The folder below `binaries` for a system and a processor, by Rust's names of them. FMI 2.0 has names
-/// for x86-64 only; for other processors those of FMI 3.0 stand in.
-pub fn platform(os: &str, arch: &str) -> Option<&'static str> {
-    Some(match (os, arch) {
-        ("linux", "x86_64") => "linux64",
-        ("windows", "x86_64") => "win64",
-        ("macos", "x86_64") => "darwin64",
-        ("linux", "aarch64") => "aarch64-linux",
-        ("windows", "aarch64") => "aarch64-windows",
-        ("macos", "aarch64") => "aarch64-darwin",
-        _ => return None,
-    })
-}
-
 /// Packs a model's description and its library for this machine; the same inputs give the same bytes.
 ///
 /// # Errors
 /// [`PackageError`]; a file that is there is replaced only by a whole one.
 pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageError> {
     let (os, arch) = (consts::OS, consts::ARCH);
-    let platform = platform(os, arch).ok_or(PackageError::Platform { os, arch })?;
+    let platform = Platform::of(os, arch).ok_or(PackageError::Platform { os, arch })?;
     let failed = |file: &Path| {
         let file = file.to_path_buf();
         |error| PackageError::File { file, error }
     };
     let content = fs::read(library).map_err(failed(library))?;
-    let name = format!("binaries/{platform}/{}{}", M::ABOUT.identifier, consts::DLL_SUFFIX);
+    let name = platform.binary(M::ABOUT.identifier);
     let description = model_description::<M>()?.into_bytes();
     let files =
         BTreeMap::from([("modelDescription.xml".to_string(), description), (name, content)]);
