@@ -15,6 +15,16 @@ pub fn data() -> Data {
     Data::embedded().expect("the embedded data are valid")
 }
 
+/// The data with another lower wall, duct and gas.
+pub fn other_engine(lower: f64, duct: f64, contraction: f64, gamma: f64) -> Data {
+    let mut data = data();
+    data.vehicle.outline.lower_angle_rad.value = lower;
+    data.vehicle.engine.duct_height_m.value = duct;
+    data.vehicle.engine.nozzle_area_ratio.value = contraction;
+    data.earth.air.heat_capacity_ratio.value = gamma;
+    data
+}
+
 /// The default build of a configuration.
 pub fn options(configuration: Configuration) -> VehicleOptions {
     VehicleOptions { configuration, ..Parameters::new(&data()).options }

@@ -8,7 +8,7 @@ use ahv::air::{Atmosphere, Choking, Intake};
 use ahv::data::Data;
 use ahv_research::gas::GasError;
 use ahv_research::shock_expansion::{Attitude, ShockExpansion};
-use model::{assert_close, data};
+use model::{assert_close, data, other_engine};
 use proptest::prelude::*;
 
 /// Equivalence ratio, over 1 plus itself: both solve the same equations, each by its own iterations.
@@ -135,11 +135,7 @@ proptest! {
         lower in 0.02..0.3f64, duct in 0.3..3.0f64, contraction in 1.0..10.0f64,
         gamma in 1.2..1.66f64, mach in 3.0..25.0f64, turn in 1e-4..0.3f64,
     ) {
-        let mut data = data();
-        data.vehicle.outline.lower_angle_rad.value = lower;
-        data.vehicle.engine.duct_height_m.value = duct;
-        data.vehicle.engine.nozzle_area_ratio.value = contraction;
-        data.earth.air.heat_capacity_ratio.value = gamma;
+        let data = other_engine(lower, duct, contraction, gamma);
         let got = limit(&data, mach, ALTITUDE, turn - lower);
         match exact(&data, mach, ALTITUDE, turn - lower) {
             Ok(expected) => assert_same("other vehicle", got, expected),

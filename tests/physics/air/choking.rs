@@ -1,7 +1,7 @@
 //! How much fuel the burner can take: printed limits, continuity, slopes, edges. Its agreement with the
 //! first-principles engine is tested beside that, in crates/research.
 
-use crate::model::data;
+use crate::model::{data, other_engine};
 use ahv::air::{Atmosphere, Choking};
 use ahv::solve::Dual;
 use proptest::prelude::*;
@@ -191,11 +191,7 @@ proptest! {
         lower in 0.02..0.3f64, duct in 0.3..3.0f64, contraction in 1.0..10.0f64,
         gamma in 1.2..1.66f64, mach in 3.0..25.0f64, turn in 1e-4..0.3f64,
     ) {
-        let mut data = data();
-        data.vehicle.outline.lower_angle_rad.value = lower;
-        data.vehicle.engine.duct_height_m.value = duct;
-        data.vehicle.engine.nozzle_area_ratio.value = contraction;
-        data.earth.air.heat_capacity_ratio.value = gamma;
+        let data = other_engine(lower, duct, contraction, gamma);
         let choking = Choking::new(&data.vehicle, &data.earth);
         let raised = flags::raised(|| choking.margin(mach, turn - lower, 300.0, 0.0));
         prop_assert_eq!(raised, 0);
