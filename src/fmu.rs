@@ -13,10 +13,8 @@ use crate::short::short;
 use crate::variables::TABLE;
 use crate::vehicle::ALPHA;
 use fmi_model::identity::{fnv, hash_of_table};
+use fmi_model::instance::LARGEST;
 use fmi_model::{About, Exchange, InputDerivatives, Model, Saving, Simulation, Tangent, Variable};
-
-/// Largest derivative of an input that can have been set.
-const LARGEST: f64 = 1e30;
 
 impl Model for Setup {
     type Simulation = Flight;

@@ -18,7 +18,7 @@ impl Flight {
     /// The controls that ask for more than their actuators can do, each reported once in a flight.
     pub fn newly_beyond_limits(&mut self) -> impl Iterator<Item = BeyondLimit> {
         (0..CONTROLS).filter_map(|control| {
-            let range @ [min, max] = self.vehicle.control_ranges()[control];
+            let [min, max] = self.vehicle.control_ranges()[control];
             let asked = self.base[control] + self.inputs.values[control];
             // A master that aims at the limit itself may miss it by rounding.
             let slack = 1e-9 * (max - min);
@@ -27,7 +27,6 @@ impl Flight {
                 return None;
             }
             self.limit_said[control] = true;
-            let [min, max] = range;
             Some(BeyondLimit { control, asked, limit: asked.clamp(min, max) })
         })
     }

@@ -1,7 +1,7 @@
 //! The vocabulary of the table's rows: units, masks of dependencies, constructors, enumerations.
 
 use crate::data::OWN;
-use crate::flight::{Flight, Sample, Setup};
+use crate::flight::Setup;
 use crate::vehicle::{self, CONTROLS, NOMINAL, STATES, eta};
 use fmi_model::{Dependencies, Kind, Unit, Variable};
 
@@ -65,26 +65,8 @@ pub(super) const INLET: u64 = STREAM | H | Q | ELASTIC | FUEL;
 /// What the aerodynamic forces depend on; on the fuel ratio through the plume under the aft-body.
 pub(super) const AERODYNAMIC: u64 = INLET | DELTA_E | PHI;
 
-type Row = Variable<Setup>;
-
-pub(super) const fn input(
-    number: usize,
-    name: &'static str,
-    unit: &'static Unit,
-    description: &'static str,
-) -> Row {
-    Variable::input(number, name, unit, description)
-}
-
-pub(super) const fn output(
-    name: &'static str,
-    unit: &'static Unit,
-    description: &'static str,
-    dependencies: Dependencies,
-    get: fn(&Sample) -> f64,
-) -> Row {
-    Variable::output(name, unit, description, dependencies, get)
-}
+/// A row. Its constructors are those of [`Variable`]; the ones below add the nominal value or the range.
+pub(super) type Row = Variable<Setup>;
 
 pub(super) const fn output_state(
     number: usize,
@@ -104,15 +86,6 @@ pub(super) const fn local_state(
     Variable::local_state(number, name, unit, description).with_nominal(NOMINAL[number])
 }
 
-pub(super) const fn derivative(
-    number: usize,
-    name: &'static str,
-    unit: &'static Unit,
-    dependencies: Dependencies,
-) -> Row {
-    Variable::derivative(number, name, unit, dependencies)
-}
-
 pub(super) const fn parameter(
     name: &'static str,
     kind: Kind,
@@ -122,15 +95,6 @@ pub(super) const fn parameter(
     set: fn(&mut Setup, f64),
 ) -> Row {
     Variable { range, ..Variable::parameter(name, kind, description, get, set) }
-}
-
-pub(super) const fn calculated(
-    name: &'static str,
-    unit: &'static Unit,
-    description: &'static str,
-    get: fn(&Flight) -> f64,
-) -> Row {
-    Variable::calculated(name, unit, description, get)
 }
 
 pub(super) const CONFIGURATION: Kind = Kind::Enumeration(

@@ -91,9 +91,9 @@ impl<M: Model> Instance<M> {
         orders: &[i32],
         values: &[f64],
     ) -> Outcome {
-        let moving: &Option<InputDerivatives<M::Simulation>> = &M::Simulation::INPUT_DERIVATIVES;
-        let missing = Failure::NotProvided { capability: "canInterpolateInputs = false" };
-        let InputDerivatives { highest, set, .. } = *moving.as_ref().ok_or(missing)?;
+        let Some(InputDerivatives { highest, set, .. }) = M::Simulation::INPUT_DERIVATIVES else {
+            return Err(Failure::NotProvided { capability: "canInterpolateInputs = false" });
+        };
         let triple = |i: usize| {
             let (variable, value) = (variable::<M>(inputs[i], REAL)?, values[i]);
             let Role::Input(number) = variable.role else {
@@ -149,8 +149,7 @@ impl<M: Model> Instance<M> {
         let (states, inputs) =
             (&mut states[..table::states::<M>()], &mut inputs[..table::inputs::<M>()]);
         states.copy_from_slice(M::Simulation::derivatives(simulation.evaluate()?));
-        let moving: &Option<InputDerivatives<M::Simulation>> = &M::Simulation::INPUT_DERIVATIVES;
-        if let Some(moving) = moving {
+        if let Some(moving) = &M::Simulation::INPUT_DERIVATIVES {
             inputs.copy_from_slice((moving.first)(simulation));
         }
         let sample = tangent(simulation, states, inputs)?;

@@ -13,11 +13,11 @@ use crate::v2::sys::Status;
 pub const EVENT_INDICATORS: usize = 0;
 
 impl<M: Model> Instance<M> {
-    const EXCHANGE: &'static Option<Exchange<M::Simulation>> = &M::Simulation::EXCHANGE;
-
-    fn exchange() -> Result<&'static Exchange<M::Simulation>, Failure> {
+    /// What Model Exchange needs.
+    pub(crate) fn exchange() -> Result<&'static Exchange<M::Simulation>, Failure> {
+        let exchange: &Option<_> = &M::Simulation::EXCHANGE;
         let missing = Failure::NotProvided { capability: "nothing of ModelExchange" };
-        Self::EXCHANGE.as_ref().ok_or(missing)
+        exchange.as_ref().ok_or(missing)
     }
 
     /// `fmi2EnterEventMode`.

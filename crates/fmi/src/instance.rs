@@ -68,8 +68,8 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Model::new`]; [`Failure::NotProvided`] of a model that does not know the interface.
     pub fn new(interface: Interface, logging_on: bool) -> Result<Self, Failure> {
-        if interface == Interface::ModelExchange && M::Simulation::EXCHANGE.is_none() {
-            return Err(Failure::NotProvided { capability: "nothing of ModelExchange" });
+        if interface == Interface::ModelExchange {
+            Self::exchange()?;
         }
         let pristine = M::new()?;
         Ok(Self {

@@ -18,7 +18,7 @@
 
 use crate::failure::{Failure, Outcome};
 use crate::instance::{Experiment, Instance, Interface, LARGEST, Life, start};
-use crate::model::{InputDerivatives, Model, Saving, Simulation};
+use crate::model::{Model, Saving, Simulation};
 use crate::pending::Pending;
 use crate::table::inputs;
 use crate::v2::calls::{PHASES, Phase};
@@ -129,8 +129,7 @@ fn parameters<M: Model>() -> impl Iterator<Item = &'static Variable<M>> {
 
 /// Highest order of the derivatives of inputs.
 fn highest<M: Model>() -> usize {
-    let moving: &Option<InputDerivatives<M::Simulation>> = &M::Simulation::INPUT_DERIVATIVES;
-    moving.as_ref().map_or(0, |moving| moving.highest)
+    M::Simulation::INPUT_DERIVATIVES.map_or(0, |moving| moving.highest)
 }
 
 /// Numbers that the simulation or the inputs before it take.

@@ -4,7 +4,7 @@ use crate::exchange::check_state;
 use crate::failure::{Failure, Outcome};
 use crate::instance::Instance;
 use crate::kinds::Kind;
-use crate::model::{Exchange, Model, Simulation};
+use crate::model::{Model, Simulation};
 use crate::table::MOST_KNOWNS;
 use crate::variable::{Role, Variable};
 
@@ -152,8 +152,7 @@ impl<M: Model> Instance<M> {
         value: impl Fn(usize) -> f64,
     ) -> Outcome {
         let before = self.before_start();
-        let exchange: &Option<Exchange<M::Simulation>> = &M::Simulation::EXCHANGE;
-        let exchange = exchange.as_ref().filter(|_| self.exchanging());
+        let exchange = Self::exchange().ok().filter(|_| self.exchanging());
         let mut moved = None;
         for (i, &reference) in references.iter().enumerate() {
             let variable = variable::<M>(reference, asked)?;
