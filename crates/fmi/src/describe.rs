@@ -7,7 +7,7 @@ mod xml;
 use crate::derivatives::OUTPUT_ORDER;
 use crate::exchange::EVENT_INDICATORS;
 use crate::failure::Failure;
-use crate::identity::guid;
+use crate::identity::guid_of;
 use crate::kinds::{Kind, Unit};
 use crate::log::CATEGORIES;
 use crate::model::{Model, Remedy, Simulation};
@@ -22,9 +22,15 @@ pub use xml::Xml;
 /// # Errors
 /// The model has no defaults.
 pub fn model_description<M: Model>() -> Result<String, Failure> {
-    let model = M::new()?;
-    // Writing to memory does not fail.
-    written(&model)
+    model_description_of(&M::new()?)
+}
+
+/// The same of a model with data of its own.
+///
+/// # Errors
+/// None: writing to memory does not fail.
+pub fn model_description_of<M: Model>(model: &M) -> Result<String, Failure> {
+    written(model)
         .map_err(|error| Failure::Model { text: error.to_string(), remedy: Remedy::Reset })
 }
 
@@ -34,7 +40,7 @@ fn written<M: Model>(model: &M) -> io::Result<String> {
     let root = [
         ("fmiVersion", "2.0".to_string()),
         ("modelName", about.identifier.to_string()),
-        ("guid", guid::<M>()),
+        ("guid", guid_of(model.identity())),
         ("description", about.description.to_string()),
         ("author", about.author.to_string()),
         ("version", about.version.to_string()),

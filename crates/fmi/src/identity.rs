@@ -80,8 +80,13 @@ pub const fn hash_of_table<M: Model>(about: &About, table: &[Variable<M>]) -> u1
     hash
 }
 
-/// The FMU's GUID: [`Model::IDENTITY`] in braces, grouped as usual.
+/// GUID of the FMU with the built-in data.
 pub fn guid<M: Model>() -> String {
-    let hex = format!("{:032x}", M::IDENTITY);
+    guid_of(M::IDENTITY)
+}
+
+/// A model's identity as GUID (FMI 2.0) and instantiation token (FMI 3.0): in braces, grouped as usual.
+pub fn guid_of(identity: u128) -> String {
+    let hex = format!("{identity:032x}");
     format!("{{{}-{}-{}-{}-{}}}", &hex[..8], &hex[8..12], &hex[12..16], &hex[16..20], &hex[20..])
 }

@@ -63,15 +63,22 @@ pub struct Instance<M: Model> {
 }
 
 impl<M: Model> Instance<M> {
-    /// A new instance.
+    /// A new instance of the built-in model.
     ///
     /// # Errors
-    /// Those of [`Model::new`]; [`Failure::NotProvided`] of a model that does not know the interface.
+    /// Those of [`Model::new`] and [`Instance::of`].
     pub fn new(interface: Interface, logging_on: bool) -> Result<Self, Failure> {
+        Self::of(M::new()?, interface, logging_on)
+    }
+
+    /// A new instance of this model.
+    ///
+    /// # Errors
+    /// [`Failure::NotProvided`] of a model that does not know the interface.
+    pub fn of(pristine: M, interface: Interface, logging_on: bool) -> Result<Self, Failure> {
         if interface == Interface::ModelExchange {
             Self::exchange()?;
         }
-        let pristine = M::new()?;
         Ok(Self {
             interface,
             model: pristine.clone(),

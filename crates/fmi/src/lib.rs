@@ -106,7 +106,7 @@
 //! | [`model`] | the traits that a model implements |
 //! | [`Variable`], [`table`] | one variable; the one table of them: value reference = row |
 //! | [`identity`] | GUID and key of saved states |
-//! | [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
+//! | [`instantiate`], [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
 //! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
 //! | [`state`] | the FMU state and its bytes |
 //! | [`failure`], [`log`] | what a call is refused for; messages for the master's logger |
@@ -130,6 +130,7 @@ pub mod failure;
 pub mod guard;
 pub mod identity;
 pub mod instance;
+pub mod instantiate;
 mod kinds;
 pub mod log;
 pub mod model;

@@ -8,6 +8,7 @@ use crate::identity::hash_of_table;
 use crate::variable::Variable;
 use std::convert::Infallible;
 use std::fmt::{Debug, Display};
+use std::path::Path;
 
 /// What a master can do about an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -83,8 +84,10 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
     /// All variables: the row is the value reference. Rows are only ever appended.
     const VARIABLES: &'static [Variable<Self>];
     /// The same for the same model only: GUID of the FMU and key of saved states. A model with data
-    /// of its own continues this hash with them, see [`crate::identity::fnv`].
+    /// continues this hash with the built-in ones, see [`crate::identity::fnv`].
     const IDENTITY: u128 = hash_of_table(&Self::ABOUT, Self::VARIABLES);
+    /// Reads a model with other data than the built-in ones from the resources of its package, a folder.
+    const RESOURCES: Option<fn(&Path) -> Result<Self, Self::Error>> = None;
     /// Relative tolerance of a master that asks for none.
     const DEFAULT_TOLERANCE: f64 = 1e-6;
     /// Tolerances that the simulation works with. A master's wish is moved into this range: a setup
@@ -96,6 +99,11 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
     /// # Errors
     /// Data that belong to the model do not fit it.
     fn new() -> Result<Self, Self::Error>;
+
+    /// The same for a model with the same data only: [`Model::IDENTITY`] of the built-in ones.
+    fn identity(&self) -> u128 {
+        Self::IDENTITY
+    }
 
     /// Starts a simulation at a time (s), with all inputs zero.
     ///

@@ -8,7 +8,7 @@
 //! | 8 | magic |
 //! | 4 | version of this layout |
 //! | 4 | length of everything |
-//! | 16 | [`Model::IDENTITY`] |
+//! | 16 | [`Model::identity`] |
 //! | 1 | state in the standard's table |
 //! | 1 | flags |
 //! | 8 each | start time, stop time, tolerance |
@@ -172,7 +172,7 @@ impl<M: Model> FmuState<M> {
         bytes.extend(MAGIC);
         bytes.extend(VERSION.to_le_bytes());
         bytes.extend((length as u32).to_le_bytes());
-        bytes.extend(M::IDENTITY.to_le_bytes());
+        bytes.extend(model.identity().to_le_bytes());
         bytes.push(life.phase as u8);
         let flag = |on: bool, bit: u8| if on { bit } else { 0 };
         let moving = matches!(memory, Memory::Pending(Pending { derivatives: Some(_), .. }));
@@ -236,7 +236,10 @@ fn decode<M: Model>(
     let length = u32::from_le_bytes(reader.take()?) as usize;
     expect(length == bytes.len(), "their length is not the one they state")?;
     expect(length == encoded_len::<M>(saving), "their length is not that of this model's states")?;
-    expect(u128::from_le_bytes(reader.take()?) == M::IDENTITY, "they belong to another model")?;
+    expect(
+        u128::from_le_bytes(reader.take()?) == pristine.identity(),
+        "they belong to another model",
+    )?;
     let (body, sum) = bytes.split_at(length - CHECKSUM);
     expect(checksum(body).to_le_bytes() == sum, "their checksum does not match")?;
 

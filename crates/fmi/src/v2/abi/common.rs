@@ -1,10 +1,9 @@
 //! Functions that co-simulation and model exchange have in common (section 2.1).
 
 use super::entry::{Component, deliver, enter, input, string};
-use crate::failure::Failure;
 use crate::guard::guarded;
-use crate::identity::guid;
 use crate::instance::{Instance, Interface};
+use crate::instantiate::Request;
 use crate::log::Message;
 use crate::model::Model;
 use crate::v2::calls;
@@ -21,30 +20,28 @@ pub unsafe fn fmi2GetVersion<M: Model>() -> *const c_char {
     c"2.0".as_ptr()
 }
 
-/// Refuses what does not fit, else makes an instance. Any resource location will do, as nothing is
-/// read from there.
+/// Refuses what does not fit, else makes an instance.
 fn instantiate<M: Model>(
-    name: Result<String, Failure>,
+    name: Result<String, String>,
     kind: sys::Type,
-    given: Result<String, Failure>,
+    given: Result<String, String>,
     logging_on: bool,
 ) -> Result<Instance<M>, String> {
-    if name.map_err(|failure| failure.to_string())?.trim().is_empty() {
-        return Err("the instance name must not be empty".to_string());
-    }
+    let [name, token] = [name?, given?];
     let interface = match kind {
         sys::Type::MODEL_EXCHANGE => Interface::ModelExchange,
         sys::Type::CO_SIMULATION => Interface::CoSimulation,
         sys::Type(other) => return Err(format!("fmuType = {other} does not exist")),
     };
-    let (given, own) = (given.map_err(|failure| failure.to_string())?, guid::<M>());
-    if given != own {
-        return Err(format!(
-            "fmuGUID is {given}, but this binary has {own}: model description and binary are not \
-             from the same FMU"
-        ));
-    }
-    Instance::new(interface, logging_on).map_err(|failure| failure.to_string())
+    let request = Request {
+        name: &name,
+        interface,
+        token_argument: "fmuGUID",
+        token: &token,
+        resources: None,
+        logging_on,
+    };
+    Instance::instantiate(request).map_err(|problem| problem.to_string())
 }
 
 pub unsafe fn fmi2Instantiate<M: Model>(
@@ -66,6 +63,8 @@ pub unsafe fn fmi2Instantiate<M: Model>(
             // SAFETY: the master passes NULL or C strings.
             let (name, given) =
                 unsafe { (string("instanceName", instanceName), string("fmuGUID", fmuGUID)) };
+            let [name, given] =
+                [name, given].map(|text| text.map_err(|failure| failure.to_string()));
             instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
         },
         |panic| Err(format!("internal error: {panic}")),

@@ -1,0 +1,101 @@
+//! A new instance: whether what the master passes fits the binary.
+
+use crate::failure::Failure;
+use crate::identity::guid_of;
+use crate::instance::{Instance, Interface};
+use crate::model::Model;
+use std::path::{Path, PathBuf};
+
+/// What a master passes for a new instance.
+#[derive(Debug)]
+pub struct Request<'a> {
+    /// Name of the instance.
+    pub name: &'a str,
+    /// What it is for.
+    pub interface: Interface,
+    /// Name of the argument that holds the token: `fmuGUID`, `instantiationToken`.
+    pub token_argument: &'static str,
+    /// GUID or instantiation token of the model description.
+    pub token: &'a str,
+    /// Folder of the package's resources, if the master says where; only read for a model with
+    /// [`Model::RESOURCES`] whose token is not that of the built-in data.
+    pub resources: Option<PathBuf>,
+    /// Whether debug messages are wanted.
+    pub logging_on: bool,
+}
+
+/// Why there is no new instance.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotInstantiated {
+    /// Every instance has a name.
+    #[error("the instance name must not be empty")]
+    NoName,
+    /// Model description and binary do not belong together.
+    #[error(
+        "{argument} is {given}, but this binary has {own}: model description and binary are not \
+         from the same FMU"
+    )]
+    Token {
+        /// Name of the argument.
+        argument: &'static str,
+        /// The refused token.
+        given: String,
+        /// The token of the built-in data.
+        own: String,
+    },
+    /// The token is not that of the built-in data, and the resources cannot be read.
+    #[error("{argument} is {given}, not that of the built-in data, and {problem}")]
+    Resources {
+        /// Name of the argument.
+        argument: &'static str,
+        /// The token.
+        given: String,
+        /// Which file and key, the limit, and what to do.
+        problem: String,
+    },
+    /// The model has no defaults, or not this interface.
+    #[error(transparent)]
+    Model(#[from] Failure),
+}
+
+impl<M: Model> Instance<M> {
+    /// `fmi2Instantiate` and its like: the built-in model if the token is its own, else the model of the
+    /// package's resources, if the token is that of their data.
+    ///
+    /// # Errors
+    /// [`NotInstantiated`].
+    pub fn instantiate(request: Request) -> Result<Self, NotInstantiated> {
+        let Request { name, interface, token_argument: argument, token, .. } = request;
+        if name.trim().is_empty() {
+            return Err(NotInstantiated::NoName);
+        }
+        let own = guid_of(M::IDENTITY);
+        if token == own {
+            return Ok(Self::new(interface, request.logging_on)?);
+        }
+        let given = token.to_string();
+        let Some(read) = M::RESOURCES else {
+            return Err(NotInstantiated::Token { argument, given, own });
+        };
+        let model = from_resources(read, request.resources.as_deref(), token)
+            .map_err(|problem| NotInstantiated::Resources { argument, given, problem })?;
+        Ok(Self::of(model, interface, request.logging_on)?)
+    }
+}
+
+fn from_resources<M: Model>(
+    read: fn(&Path) -> Result<M, M::Error>,
+    resources: Option<&Path>,
+    token: &str,
+) -> Result<M, String> {
+    let folder = resources.ok_or("the master does not say where the resources are")?;
+    let model = read(folder).map_err(|error| error.to_string())?;
+    let theirs = guid_of(model.identity());
+    if theirs == token {
+        return Ok(model);
+    }
+    Err(format!(
+        "the data in {} belong to {theirs}: model description and data are not from the same FMU",
+        folder.display()
+    ))
+}
