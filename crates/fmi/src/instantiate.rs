@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::identity::guid_of;
 use crate::instance::{Instance, Interface};
-use crate::model::Model;
+use crate::model::{FromResources, Model};
 use std::path::{Path, PathBuf};
 
 /// What a master passes for a new instance.
@@ -84,7 +84,7 @@ impl<M: Model> Instance<M> {
 }
 
 fn from_resources<M: Model>(
-    read: fn(&Path) -> Result<M, M::Error>,
+    read: FromResources<M>,
     resources: Option<&Path>,
     token: &str,
 ) -> Result<M, String> {

@@ -149,6 +149,7 @@ mod variable;
 
 pub use kinds::{Dependencies, Kind, Unit};
 pub use model::{
-    About, Exchange, InputDerivatives, Model, ModelError, Remedy, Saving, Simulation, Tangent,
+    About, Exchange, FromResources, InputDerivatives, Model, ModelError, Remedy, Saving,
+    Simulation, Tangent,
 };
 pub use variable::{Refused, Role, Variable};

@@ -87,7 +87,7 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
     /// continues this hash with the built-in ones, see [`crate::identity::fnv`].
     const IDENTITY: u128 = hash_of_table(&Self::ABOUT, Self::VARIABLES);
     /// Reads a model with other data than the built-in ones from the resources of its package, a folder.
-    const RESOURCES: Option<fn(&Path) -> Result<Self, Self::Error>> = None;
+    const RESOURCES: Option<FromResources<Self>> = None;
     /// Relative tolerance of a master that asks for none.
     const DEFAULT_TOLERANCE: f64 = 1e-6;
     /// Tolerances that the simulation works with. A master's wish is moved into this range: a setup
@@ -121,6 +121,10 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
     ) {
     }
 }
+
+/// Reads a model from a folder.
+#[expect(type_alias_bounds, reason = "says what M is")]
+pub type FromResources<M: Model> = fn(&Path) -> Result<M, M::Error>;
 
 /// A running simulation. Optional capabilities are constants: without one the model description does
 /// not promise it, and the functions of the standard that need it refuse.
