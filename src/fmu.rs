@@ -14,7 +14,9 @@ use crate::variables::TABLE;
 use crate::vehicle::ALPHA;
 use fmi_model::identity::{fnv, hash_of_table};
 use fmi_model::instance::LARGEST;
-use fmi_model::{About, Exchange, InputDerivatives, Model, Saving, Simulation, Tangent, Variable};
+use fmi_model::{
+    About, Exchange, InputDerivatives, InternalStep, Model, Saving, Simulation, Tangent, Variable,
+};
 
 impl Model for Setup {
     type Simulation = Flight;
@@ -102,6 +104,8 @@ impl Simulation for Flight {
             (Ok(states), Ok(inputs)) => Ok(flight.tangent(states, inputs)?),
             _ => unreachable!("the table has as many states and inputs as the flight"),
         });
+    const INTERNAL_STEP: Option<InternalStep<Self>> =
+        Some(|flight, end| Ok(flight.advance_once(end)?));
     const SAVING: Option<Saving<Self>> = Some(Saving {
         count: Snapshot::NUMBERS,
         save: |flight, numbers| numbers.extend(flight.snapshot().numbers()),

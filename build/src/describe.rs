@@ -6,6 +6,7 @@ use ahv::flight::Setup;
 use anyhow::{Result, bail};
 use fmi_model::Model;
 use fmi_model::describe::model_description;
+use fmi_model::standard::Standard;
 
 /// Name of the library in the FMU.
 pub const MODEL_IDENTIFIER: &str = Setup::ABOUT.identifier;
@@ -37,7 +38,7 @@ pub fn run(options: &Describe) -> Result<()> {
 
 /// The text of the file. It has no date, path or host name: the same sources give the same bytes.
 pub fn xml() -> Result<String> {
-    Ok(model_description::<Setup>()?)
+    Ok(model_description::<Setup>(Standard::Fmi2)?)
 }
 
 #[cfg(test)]

@@ -188,10 +188,10 @@ fn variable_row(
     };
     let unit = match variable.kind {
         Kind::Real(unit) => unit.name,
-        Kind::Boolean | Kind::Enumeration(..) => "",
+        Kind::Integer | Kind::Boolean | Kind::Enumeration(..) => "",
     };
     let start = variable.start(setup).map_or(String::new(), |value| match variable.kind {
-        Kind::Real(_) => plain(value),
+        Kind::Real(_) | Kind::Integer => plain(value),
         Kind::Boolean => (value != 0.0).to_string(),
         Kind::Enumeration(_, items) => {
             let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);

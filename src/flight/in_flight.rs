@@ -147,6 +147,18 @@ impl Flight {
     /// tanks run empty: time and state are then those of the last valid instant. [`Error::StepSize`] if
     /// the tolerance cannot be held, [`Error::TooLong`] if the interval takes too many steps.
     pub fn advance(&mut self, end: f64) -> Result<(), Error> {
+        self.run(end, false)
+    }
+
+    /// Flies towards `end` (s) by one step of the integrator, which may be all of it.
+    ///
+    /// # Errors
+    /// Those of [`Flight::advance`].
+    pub fn advance_once(&mut self, end: f64) -> Result<(), Error> {
+        self.run(end, true)
+    }
+
+    fn run(&mut self, end: f64, once: bool) -> Result<(), Error> {
         let Self { vehicle, base, method, state, inputs, .. } = self;
         let controlled = ControlledVehicle {
             vehicle,
@@ -160,21 +172,26 @@ impl Flight {
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
         let outcome = if controlled.is_autonomous() {
-            integrator.advance(&mut **method, &controlled, state, interval, slope)
+            integrator.run(&mut **method, &controlled, state, interval, slope, once)
         } else {
-            integrator.advance(&mut &DOP853, &controlled, state, interval, slope)
+            integrator.run(&mut &DOP853, &controlled, state, interval, slope, once)
         };
         let flown = match outcome {
             Outcome::Complete => length,
             Outcome::Invalid(flown)
             | Outcome::StepTooSmall(flown)
-            | Outcome::TooManySteps(flown) => flown,
+            | Outcome::TooManySteps(flown)
+            | Outcome::Paused(flown) => flown,
         };
         *inputs = inputs.after(flown);
         self.sample = None;
         match outcome {
             Outcome::Complete => {
                 self.time = end;
+                Ok(())
+            }
+            Outcome::Paused(flown) => {
+                self.time += flown;
                 Ok(())
             }
             Outcome::Invalid(flown) => {

@@ -37,6 +37,8 @@ pub enum Outcome {
     StepTooSmall(f64),
     /// [`MAX_TRIALS`] steps reached this instant only.
     TooManySteps(f64),
+    /// A step ended at this instant, and one was wanted.
+    Paused(f64),
 }
 
 /// An explicit Runge-Kutta method with an error estimate made of two embedded methods.
@@ -159,8 +161,21 @@ impl Integrator {
         method: &mut impl Method<N>,
         system: &impl System<N>,
         x: &mut [f64; N],
+        interval: [f64; 2],
+        first: &mut Option<[f64; N]>,
+    ) -> Outcome {
+        self.run(method, system, x, interval, first, false)
+    }
+
+    /// The same, by one step only if `once`.
+    pub fn run<const N: usize>(
+        &mut self,
+        method: &mut impl Method<N>,
+        system: &impl System<N>,
+        x: &mut [f64; N],
         [start, end]: [f64; 2],
         first: &mut Option<[f64; N]>,
+        once: bool,
     ) -> Outcome {
         let mut t = start;
         // Earliest instant at which the model is known not to hold.
@@ -215,6 +230,9 @@ impl Integrator {
             t = if equilibrium || last && invalid > end { end } else { t + h };
             *x = trial.next;
             *first = trial.slope;
+            if t < end && once {
+                return Outcome::Paused(t);
+            }
             if t < end {
                 slope = trial.slope.unwrap_or_else(|| system.derivatives(t, x));
             }

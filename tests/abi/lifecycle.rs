@@ -2,7 +2,7 @@
 
 use crate::common::{Api, Slave, configurations, reference};
 use crate::master::order::follow;
-use fmi_model::v2::calls::Phase;
+use fmi_model::phase::Phase;
 use fmi_model::v2::sys::Status;
 
 /// The states that synchronous steps can reach without an internal error.
@@ -47,7 +47,10 @@ fn bring_to(slave: &Slave, phase: Phase) {
             // SAFETY: a live instance.
             assert_eq!(unsafe { (slave.api.enter_continuous_time_mode)(slave.c) }, Status::Ok);
         }
-        Phase::StepInProgress | Phase::StepCanceled | Phase::Fatal => unreachable!(),
+        Phase::StepInProgress
+        | Phase::StepCanceled
+        | Phase::Fatal
+        | Phase::IntermediateUpdateMode => unreachable!(),
     }
     slave.log();
 }

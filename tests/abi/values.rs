@@ -176,7 +176,7 @@ fn every_variable_is_read_by_the_function_of_its_type_and_refused_by_the_others(
         };
         let right = match variable.kind {
             Kind::Real(_) => 0,
-            Kind::Enumeration(..) => 1,
+            Kind::Integer | Kind::Enumeration(..) => 1,
             Kind::Boolean => 2,
         };
         for (i, status) in statuses.into_iter().enumerate() {

@@ -23,7 +23,7 @@ fn change<M: Model>(role: &Role<M>, sample: &SampleOf<M>, states: &[f64]) -> Opt
 
 impl<M: Model> Instance<M> {
     fn tangent() -> Result<Tangent<M::Simulation>, Failure> {
-        let missing = Failure::NotProvided { capability: "providesDirectionalDerivative = false" };
+        let missing = Failure::NotProvided { capability: "directional derivatives" };
         M::Simulation::TANGENT.ok_or(missing)
     }
 
@@ -48,7 +48,7 @@ impl<M: Model> Instance<M> {
         // States, then inputs.
         let mut changes = [0.0; MOST_KNOWNS];
         for (&reference, &change) in knowns.iter().zip(seed) {
-            let known = variable::<M>(reference, REAL)?;
+            let known = variable::<M>(reference, &REAL)?;
             check_change(known, change)?;
             match known.role {
                 Role::OutputState(i) | Role::LocalState(i) => changes[i] += change,
@@ -62,7 +62,7 @@ impl<M: Model> Instance<M> {
             }
         }
         for &reference in unknowns {
-            let unknown = variable::<M>(reference, REAL)?;
+            let unknown = variable::<M>(reference, &REAL)?;
             if matches!(unknown.role, Role::Input(_) | Role::Parameter { .. } | Role::Calculated(_))
             {
                 return Err(no_derivative(
@@ -79,6 +79,40 @@ impl<M: Model> Instance<M> {
         write_changes::<M>(unknowns, &sample, states, write)
     }
 
+    /// `fmi3GetAdjointDerivative`: what the changes `seed` of `unknowns` amount to for each of `knowns`, a column of
+    /// the Jacobian at a time.
+    ///
+    /// # Errors
+    /// Those of [`Instance::directional_derivative`].
+    pub fn adjoint_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        seed: &[f64],
+        mut write: impl FnMut(usize, f64),
+    ) -> Outcome {
+        for (&reference, &change) in unknowns.iter().zip(seed) {
+            check_change(variable::<M>(reference, &REAL)?, change)?;
+        }
+        let mut sums = [0.0; MOST_KNOWNS];
+        let mut columns = knowns.chunks(MOST_KNOWNS).enumerate();
+        columns.try_for_each(|(chunk, knowns)| {
+            for (sum, known) in sums.iter_mut().zip(knowns) {
+                *sum = 0.0;
+                let add = |i: usize, change: f64| *sum += seed[i] * change;
+                self.directional_derivative(unknowns, &[*known], &[1.0], add)?;
+            }
+            for (i, (&known, &value)) in knowns.iter().zip(&sums).enumerate() {
+                if !value.is_finite() {
+                    let variable = variable::<M>(known, &REAL)?.name;
+                    return Err(Failure::NotFinite { variable, value });
+                }
+                write(chunk * MOST_KNOWNS + i, value);
+            }
+            Ok(())
+        })
+    }
+
     /// `fmi2SetRealInputDerivatives`: how the inputs go on from their present values within the next
     /// step, and only there. It may come before or after `fmi2SetReal`.
     ///
@@ -92,10 +126,10 @@ impl<M: Model> Instance<M> {
         values: &[f64],
     ) -> Outcome {
         let Some(InputDerivatives { highest, set, .. }) = M::Simulation::INPUT_DERIVATIVES else {
-            return Err(Failure::NotProvided { capability: "canInterpolateInputs = false" });
+            return Err(Failure::NotProvided { capability: "inputs that move within a step" });
         };
         let triple = |i: usize| {
-            let (variable, value) = (variable::<M>(inputs[i], REAL)?, values[i]);
+            let (variable, value) = (variable::<M>(inputs[i], &REAL)?, values[i]);
             let Role::Input(number) = variable.role else {
                 return Err(no_derivative(
                     variable,
@@ -138,7 +172,7 @@ impl<M: Model> Instance<M> {
             return Ok(());
         }
         for (&reference, &asked) in outputs.iter().zip(orders) {
-            let output = variable::<M>(reference, REAL)?;
+            let output = variable::<M>(reference, &REAL)?;
             if !matches!(output.role, Role::Output(_) | Role::OutputState(_)) {
                 return Err(no_derivative(output, "has no derivative: only outputs have"));
             }
@@ -165,7 +199,7 @@ fn write_changes<M: Model>(
     mut write: impl FnMut(usize, f64),
 ) -> Outcome {
     let read = |reference| {
-        let variable = variable::<M>(reference, REAL)?;
+        let variable = variable::<M>(reference, &REAL)?;
         let value = change(&variable.role, sample, states).unwrap_or(f64::NAN);
         let refused = Failure::NotFinite { variable: variable.name, value };
         value.is_finite().then_some(value).ok_or(refused)

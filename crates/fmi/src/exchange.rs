@@ -5,9 +5,9 @@
 use crate::failure::{Failure, Outcome};
 use crate::instance::Instance;
 use crate::model::{Exchange, Model, ModelError, Remedy, Simulation};
+use crate::phase::Phase;
+use crate::status::Status;
 use crate::table;
-use crate::v2::calls::Phase;
-use crate::v2::sys::Status;
 
 /// Number of event indicators.
 pub const EVENT_INDICATORS: usize = 0;
@@ -16,7 +16,7 @@ impl<M: Model> Instance<M> {
     /// What Model Exchange needs.
     pub(crate) fn exchange() -> Result<&'static Exchange<M::Simulation>, Failure> {
         let exchange: &Option<_> = &M::Simulation::EXCHANGE;
-        let missing = Failure::NotProvided { capability: "nothing of ModelExchange" };
+        let missing = Failure::NotProvided { capability: "Model Exchange" };
         exchange.as_ref().ok_or(missing)
     }
 
@@ -50,7 +50,7 @@ impl<M: Model> Instance<M> {
             return Err(error.into());
         }
         self.life.ended = true;
-        self.log.push(Status::Discard, || format!("fmi2CompletedIntegratorStep: {error}"));
+        self.log.push(Status::Discard, || error.to_string());
         Ok(true)
     }
 

@@ -1,10 +1,11 @@
 //! What a call can be refused for. The text is what a user reads in the master's log.
 
+use crate::instance::Interface;
 use crate::instance::LARGEST;
 use crate::model::{ModelError, Remedy};
 use crate::short::short;
-use crate::v2::calls::{PHASES, Phase};
-use crate::v2::sys::{Status, StatusKind};
+use crate::standard::Standard;
+use crate::status::Status;
 use crate::variable::Refused;
 
 /// What a call of the standard comes to.
@@ -15,12 +16,18 @@ pub type Outcome = Result<(), Failure>;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     /// Out of order.
-    #[error("not allowed in state {phase}; allowed in: {}", names(*allowed))]
+    #[error("not allowed in state {phase}; allowed in: {allowed}")]
     IllegalCall {
-        /// State of the instance.
-        phase: Phase,
-        /// Bits of the states in which the call is legal.
-        allowed: u16,
+        /// Name of the instance's state.
+        phase: &'static str,
+        /// Names of the states in which the call is legal.
+        allowed: String,
+    },
+    /// A function that the other interface has.
+    #[error("not a function of {interface}")]
+    WrongInterface {
+        /// What the instance is for.
+        interface: Interface,
     },
     /// `fmi2EnterInitializationMode` without `fmi2SetupExperiment`.
     #[error("call fmi2SetupExperiment first, it gives the start time")]
@@ -140,7 +147,7 @@ pub enum Failure {
     },
     /// A step past the stop time.
     #[error(
-        "the step ends at {} s, past the stop time {} s of fmi2SetupExperiment",
+        "the step ends at {} s, past the stop time {} s of the experiment",
         short(*end), short(*stop)
     )]
     PastStop {
@@ -148,6 +155,26 @@ pub enum Failure {
         end: f64,
         /// Stop time.
         stop: f64,
+    },
+    /// A variable that no one sets.
+    #[error(
+        "{variable} = {} is refused: only inputs and parameters can be set, and states while the \
+         master integrates",
+        short(*value)
+    )]
+    NotSettable {
+        /// Name of the variable.
+        variable: &'static str,
+        /// The refused value.
+        value: f64,
+    },
+    /// A variable that has no value yet.
+    #[error(
+        "{variable} has no value yet: only inputs and parameters have one before initialization"
+    )]
+    NoValueYet {
+        /// Name of the variable.
+        variable: &'static str,
     },
     /// A value that the variable cannot take.
     #[error(transparent)]
@@ -161,17 +188,19 @@ pub enum Failure {
         remedy: Remedy,
     },
     /// Status information that synchronous steps do not have, or not of this type.
-    #[error("status kind {} is not available as {asked}: {}", kind.0, elsewhere(*kind))]
+    #[error("status kind {kind} is not available as {asked}: {elsewhere}")]
     NoStatus {
-        /// What was asked for.
-        kind: StatusKind,
+        /// Number of what was asked for.
+        kind: u32,
         /// Type that the called function gives.
         asked: &'static str,
+        /// Where it is instead.
+        elsewhere: &'static str,
     },
     /// An optional capability that this FMU does not have.
-    #[error("not provided: the model description says {capability}")]
+    #[error("the model description does not promise {capability}")]
     NotProvided {
-        /// Attribute of the model description.
+        /// What is missing.
         capability: &'static str,
     },
     /// A log category that the model description does not list.
@@ -184,12 +213,12 @@ pub enum Failure {
     },
     /// A state that an instance for the other interface was in.
     #[error(
-        "the FMU state is one of {phase}: it cannot go on where co-simulation and model exchange \
+        "the FMU state is one of {interface}: it cannot go on where Co-Simulation and Model Exchange \
          differ"
     )]
     OtherInterface {
-        /// State of the instance that it was taken of.
-        phase: Phase,
+        /// What the instance that it was taken of is for.
+        interface: Interface,
     },
     /// Bytes that are no FMU state of this model.
     #[error("these {length} bytes are no FMU state of this model: {problem}; nothing was changed")]
@@ -216,12 +245,19 @@ impl Failure {
         }
     }
 
-    /// What the function returns. Argument errors are errors and nothing milder: a master must not
-    /// go on with a value that was not taken.
-    pub fn status(&self) -> Status {
-        match self {
-            Self::Model { remedy: Remedy::End | Remedy::ShorterStep, .. } => Status::Discard,
-            Self::NoStatus { .. } => Status::Discard,
+    /// What the function returns.
+    ///
+    /// In FMI 2.0 a refused value is an error and nothing milder: a master must not go on with a value that
+    /// was not taken. In FMI 3.0 an error ends the run, and `fmi3Discard` says that nothing has changed
+    /// (section 2.2.4), so it is the answer to a value that the model refuses or does not have.
+    pub fn status(&self, standard: Standard) -> Status {
+        match (standard, self) {
+            (_, Self::Model { remedy: Remedy::End | Remedy::ShorterStep, .. })
+            | (Standard::Fmi2, Self::NoStatus { .. })
+            | (
+                Standard::Fmi3,
+                Self::Refused(_) | Self::State { .. } | Self::Seed { .. } | Self::NotFinite { .. },
+            ) => Status::Discard,
             _ => Status::Error,
         }
     }
@@ -233,23 +269,4 @@ fn last(count: usize) -> String {
         Some(last) => format!("the last one is {last}"),
         None => "the model has no variables".to_string(),
     }
-}
-
-/// Why a kind of status is not available, and where else it is.
-fn elsewhere(kind: StatusKind) -> &'static str {
-    match kind {
-        StatusKind::LAST_SUCCESSFUL_TIME => "call fmi2GetRealStatus",
-        StatusKind::TERMINATED => "call fmi2GetBooleanStatus",
-        StatusKind::DO_STEP_STATUS | StatusKind::PENDING_STATUS => "no step is ever pending",
-        _ => "there are 0 to 3",
-    }
-}
-
-fn names(allowed: u16) -> String {
-    let names: Vec<_> = PHASES
-        .iter()
-        .filter(|phase| allowed & phase.bit() != 0)
-        .map(|phase| phase.to_string())
-        .collect();
-    names.join(", ")
 }

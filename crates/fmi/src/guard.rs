@@ -2,10 +2,11 @@
 //! status and a message.
 
 use crate::failure::{Failure, Outcome};
-use crate::instance::Instance;
+use crate::instance::{Instance, Interface};
 use crate::model::Model;
-use crate::v2::calls::{Call, Phase};
-use crate::v2::sys::Status;
+use crate::phase::{Call, Phase};
+use crate::standard::Standard;
+use crate::status::Status;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -33,25 +34,40 @@ pub fn run<M: Model>(
     body: impl FnOnce(&mut Instance<M>) -> Outcome,
 ) -> Status {
     let phase = instance.phase();
-    let (status, text) = if phase == Phase::Fatal {
-        (Status::Fatal, "after an internal error only fmi2FreeInstance is allowed".to_string())
+    instance.log.begin(call.name);
+    let text = if phase == Phase::Fatal {
+        "after an internal error the instance can only be freed".to_string()
     } else {
-        let outcome = if call.allowed_in(phase) {
-            guarded(|| body(instance).map_err(Ok), |panic| Err(Err(panic)))
-        } else {
-            Err(Ok(Failure::IllegalCall { phase, allowed: call.allowed }))
+        let outcome = match legal(call, phase, instance.interface) {
+            Ok(()) => guarded(|| body(instance).map_err(Ok), |panic| Err(Err(panic))),
+            Err(failure) => Err(Ok(failure)),
         };
         match outcome {
             Ok(()) => return Status::Ok,
             Err(Ok(failure)) => {
-                let status = failure.status();
-                instance.log.push(status, || format!("{}: {failure}", call.name));
+                let status = failure.status(call.standard);
+                if status == Status::Error && call.standard == Standard::Fmi3 {
+                    // Section 2.3.1 of FMI 3.0: any error ends the run.
+                    instance.fail();
+                }
+                instance.log.push(status, || failure.to_string());
                 return status;
             }
-            Err(Err(panic)) => (Status::Fatal, format!("internal error: {panic}")),
+            Err(Err(panic)) => format!("internal error: {panic}"),
         }
     };
     instance.ruin();
-    instance.log.push(status, || format!("{}: {text}", call.name));
-    status
+    instance.log.push(Status::Fatal, || text);
+    Status::Fatal
+}
+
+fn legal(call: &Call, phase: Phase, interface: Interface) -> Outcome {
+    if call.interface.is_some_and(|only| only != interface) {
+        return Err(Failure::WrongInterface { interface });
+    }
+    if call.allowed_in(phase) {
+        return Ok(());
+    }
+    let (phase, allowed) = (phase.name(call.standard), call.allowed_names());
+    Err(Failure::IllegalCall { phase, allowed })
 }

@@ -29,6 +29,7 @@ const fn fnv_bits(hash: u128, bits: u64) -> u128 {
 const fn fnv_kind(mut hash: u128, kind: &Kind) -> u128 {
     match kind {
         Kind::Real(unit) => fnv_text(hash, unit.name),
+        Kind::Integer => fnv_text(hash, "Integer"),
         Kind::Boolean => fnv_text(hash, "Boolean"),
         Kind::Enumeration(name, items) => {
             hash = fnv_text(hash, name);

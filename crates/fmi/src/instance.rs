@@ -4,14 +4,15 @@ use crate::failure::{Failure, Outcome};
 use crate::log::Log;
 use crate::model::{Model, Simulation};
 use crate::pending::Pending;
+use crate::phase::Phase;
 use crate::short::short;
-use crate::v2::calls::Phase;
-use crate::v2::sys::Status;
+use crate::status::Status;
+use core::fmt;
 
 /// Largest step (s), rate of an input or change that is taken: what is made of it does not overflow.
 pub const LARGEST: f64 = 1e30;
 
-/// What `fmi2SetupExperiment` said.
+/// What the master said about the run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Experiment {
     /// Start time, s.
@@ -25,9 +26,9 @@ pub struct Experiment {
 /// What an instance remembers besides parameters and simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Life {
-    /// State in the standard's table.
+    /// State in the standards' tables.
     pub phase: Phase,
-    /// What `fmi2SetupExperiment` said, once it was called.
+    /// What the master said about the run, once it did.
     pub experiment: Option<Experiment>,
     /// Whether a step ended early and the simulation should end.
     pub ended: bool,
@@ -57,9 +58,20 @@ pub struct Instance<M: Model> {
     pub(crate) pending: Pending,
     pub(crate) simulation: Option<M::Simulation>,
     pub(crate) life: Life,
+    /// Where the present step began, as numbers of the simulation.
+    pub(crate) start_of_step: Vec<f64>,
     logging_on: bool,
     /// Messages for the master.
     pub log: Log,
+}
+
+impl fmt::Display for Interface {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::ModelExchange => "Model Exchange",
+            Self::CoSimulation => "Co-Simulation",
+        })
+    }
 }
 
 impl<M: Model> Instance<M> {
@@ -86,6 +98,7 @@ impl<M: Model> Instance<M> {
             pending: Pending::new::<M>(),
             simulation: None,
             life: Life::NEW,
+            start_of_step: Vec::new(),
             logging_on,
             log: Log::new(logging_on),
         })
@@ -101,9 +114,14 @@ impl<M: Model> Instance<M> {
         matches!(self.life.phase, Phase::Instantiated | Phase::InitializationMode)
     }
 
-    /// State in the standard's table.
+    /// State in the standards' tables.
     pub fn phase(&self) -> Phase {
         self.life.phase
+    }
+
+    /// Ends the run: the master can reset, or restore an FMU state.
+    pub(crate) fn fail(&mut self) {
+        self.life.phase = Phase::Error;
     }
 
     /// Makes the instance unusable.
@@ -138,7 +156,7 @@ impl<M: Model> Instance<M> {
         Ok((&self.model, simulation))
     }
 
-    /// `fmi2SetDebugLogging`.
+    /// `fmi2SetDebugLogging`, `fmi3SetDebugLogging`.
     ///
     /// # Errors
     /// [`Failure::UnknownCategory`].
@@ -146,7 +164,7 @@ impl<M: Model> Instance<M> {
         self.log.switch(on, categories)
     }
 
-    /// `fmi2SetupExperiment`; undefined arguments are `None`.
+    /// `fmi2SetupExperiment`, and the arguments of `fmi3EnterInitializationMode`; undefined ones are `None`.
     ///
     /// # Errors
     /// [`Failure::Argument`].
@@ -177,12 +195,12 @@ impl<M: Model> Instance<M> {
         self.simulation = None;
         self.log.push(Status::Ok, || {
             let start = short(start);
-            format!("fmi2SetupExperiment: start at {start} s, relative tolerance {tolerance:e}")
+            format!("start at {start} s, relative tolerance {tolerance:e}")
         });
         Ok(())
     }
 
-    /// `fmi2EnterInitializationMode`.
+    /// Enters the initialization mode.
     ///
     /// # Errors
     /// [`Failure::NoExperiment`].
@@ -192,7 +210,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// `fmi2ExitInitializationMode`: finds the initial state.
+    /// Leaves the initialization mode: finds the initial state.
     ///
     /// # Errors
     /// Those of [`Model::start`]; the state is then error.
@@ -209,26 +227,27 @@ impl<M: Model> Instance<M> {
             Interface::ModelExchange => Phase::EventMode,
             Interface::CoSimulation => Phase::StepComplete,
         };
-        const CALL: &str = "fmi2ExitInitializationMode";
         if self.log.wants(Status::Ok)
             && let Some(simulation) = &self.simulation
         {
-            self.model.started(&self.pristine, simulation, &mut |text| self.log.say(CALL, &text));
+            let log = &mut self.log;
+            self.model
+                .started(&self.pristine, simulation, &mut |text| log.push(Status::Ok, || text));
         }
-        self.advise(CALL);
+        self.advise();
         Ok(())
     }
 
     /// Says what works but is probably not meant.
-    pub(crate) fn advise(&mut self, call: &str) {
+    pub(crate) fn advise(&mut self) {
         if self.log.wants(Status::Ok)
             && let Some(simulation) = &mut self.simulation
         {
-            simulation.advise(&mut |text| self.log.say(call, &text));
+            simulation.advise(&mut |text| self.log.push(Status::Ok, || text));
         }
     }
 
-    /// `fmi2Terminate`: nothing is left to do, values can still be read.
+    /// Terminates: nothing is left to do, values can still be read.
     ///
     /// # Errors
     /// None.
@@ -237,7 +256,7 @@ impl<M: Model> Instance<M> {
         Ok(())
     }
 
-    /// `fmi2Reset`: as just instantiated, with the logging of then.
+    /// Resets: as just instantiated, with the logging of then.
     ///
     /// # Errors
     /// None.

@@ -36,6 +36,8 @@ impl Unit {
 pub enum Kind {
     /// A real number in a unit.
     Real(&'static Unit),
+    /// A whole number of 32 bits.
+    Integer,
     /// True or false.
     Boolean,
     /// One of a list of named numbers: name of the type, then (name, number, description).

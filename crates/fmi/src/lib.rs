@@ -119,6 +119,7 @@
 #![deny(unsafe_code)]
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods, clippy::disallowed_types)]
 
+mod abi;
 #[cfg(feature = "package")]
 pub mod archive;
 mod clock;
@@ -126,6 +127,7 @@ pub mod derivatives;
 #[cfg(feature = "describe")]
 pub mod describe;
 pub mod exchange;
+mod export;
 pub mod failure;
 pub mod guard;
 pub mod identity;
@@ -137,19 +139,23 @@ pub mod model;
 #[cfg(feature = "package")]
 pub mod package;
 mod pending;
+pub mod phase;
 #[cfg(feature = "package")]
 pub mod platform;
 mod short;
+pub mod standard;
 pub mod state;
+pub mod status;
 mod steps;
 pub mod table;
 pub mod v2;
+pub mod v3;
 pub mod values;
 mod variable;
 
 pub use kinds::{Dependencies, Kind, Unit};
 pub use model::{
-    About, Exchange, FromResources, InputDerivatives, Model, ModelError, Remedy, Saving,
-    Simulation, Tangent,
+    About, Exchange, FromResources, InputDerivatives, InternalStep, Model, ModelError, Remedy,
+    Saving, Simulation, Tangent,
 };
 pub use variable::{Refused, Role, Variable};

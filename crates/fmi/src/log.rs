@@ -1,13 +1,14 @@
 //! Log categories, and messages that wait for the master's logger.
 
 use crate::failure::Failure;
-use crate::v2::sys::Status;
+use crate::standard::Standard;
+use crate::status::Status;
 use core::ffi::CStr;
 use std::ffi::CString;
 
 /// A log category, with its name in the standard (section 2.2.4).
 ///
-/// There is none for warnings and pending steps, as neither is ever returned.
+/// There is none for warnings and pending steps, as neither is ever returned. FMI 3.0 has the same names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Category {
@@ -49,7 +50,7 @@ impl Category {
     /// The category in which a failed call is reported.
     pub const fn of(status: Status) -> Self {
         match status {
-            Status::Ok | Status::Warning | Status::Pending => Self::Events,
+            Status::Ok | Status::Warning => Self::Events,
             Status::Discard => Self::StatusDiscard,
             Status::Error => Self::StatusError,
             Status::Fatal => Self::StatusFatal,
@@ -66,36 +67,42 @@ impl Category {
         Self::StatusDiscard.bit() | Self::StatusError.bit() | Self::StatusFatal.bit();
 }
 
-/// A message ready for a logger of the `printf` kind.
+/// A message for the master.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Message {
     /// Status that the call returns.
     pub status: Status,
     /// Category.
     pub category: Category,
-    /// Finished text, escaped.
-    pub text: CString,
+    /// Finished text.
+    pub text: String,
 }
 
 impl Message {
-    /// The text is escaped: the standard hands it to `printf` as the format, so `%` is doubled, and
-    /// reads `#r1#` as a variable, so `#` is doubled too.
-    pub fn new(status: Status, text: &str) -> Self {
-        let mut escaped = Vec::with_capacity(text.len() + 8);
-        for byte in text.bytes().filter(|&byte| byte != 0) {
+    /// A message in the category of its status.
+    pub fn new(status: Status, text: String) -> Self {
+        Self { status, category: Category::of(status), text }
+    }
+
+    /// The text as a standard's logger takes it: both read `#r1#` as a variable, so `#` is doubled; FMI 2.0
+    /// hands it to `printf` as the format, so `%` is doubled there.
+    pub fn escaped(&self, standard: Standard) -> CString {
+        let mut escaped = Vec::with_capacity(self.text.len() + 8);
+        for byte in self.text.bytes().filter(|&byte| byte != 0) {
             escaped.push(byte);
-            if byte == b'%' || byte == b'#' {
+            if byte == b'#' || byte == b'%' && standard == Standard::Fmi2 {
                 escaped.push(byte);
             }
         }
-        let text = CString::new(escaped).unwrap_or_default();
-        Self { status, category: Category::of(status), text }
+        CString::new(escaped).unwrap_or_default()
     }
 }
 
 /// Enabled categories and waiting messages.
 #[derive(Debug, Clone)]
 pub struct Log {
+    /// Name of the call that is being made: messages begin with it.
+    call: &'static str,
     enabled: u8,
     waiting: Vec<Message>,
 }
@@ -103,7 +110,7 @@ pub struct Log {
 impl Log {
     /// A log with all categories on or off.
     pub fn new(on: bool) -> Self {
-        Self { enabled: if on { u8::MAX } else { 0 }, waiting: Vec::new() }
+        Self { call: "", enabled: if on { u8::MAX } else { 0 }, waiting: Vec::new() }
     }
 
     /// Switches the named categories, or all if none is named.
@@ -138,13 +145,14 @@ impl Log {
     /// Queues a message if its category is wanted; the text is not even made if not.
     pub fn push(&mut self, status: Status, text: impl FnOnce() -> String) {
         if self.wants(status) {
-            self.waiting.push(Message::new(status, &text()));
+            let message = Message::new(status, format!("{}: {}", self.call, text()));
+            self.waiting.push(message);
         }
     }
 
-    /// Queues what a model reports during a call that succeeds.
-    pub fn say(&mut self, call: &str, text: &str) {
-        self.push(Status::Ok, || format!("{call}: {text}"));
+    /// Says which call the messages that follow are about.
+    pub fn begin(&mut self, call: &'static str) {
+        self.call = call;
     }
 
     /// Hands over what is waiting.

@@ -13,11 +13,12 @@ use std::path::Path;
 /// What a master can do about an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Remedy {
-    /// Reset the instance, or restore a saved state: `fmi2Error`.
+    /// Reset the instance, or restore a saved state: error.
     Reset,
-    /// Try a shorter step: `fmi2Discard`.
+    /// Try a shorter step: discard.
     ShorterStep,
-    /// End the simulation at the last valid instant: `fmi2Discard`, and `fmi2Terminated` is true.
+    /// End the simulation at the last valid instant: in FMI 2.0 discard, and `fmi2Terminated` is true; in FMI
+    /// 3.0 the step succeeds, and `terminateSimulation` is true.
     End,
 }
 
@@ -140,6 +141,9 @@ pub trait Simulation: Sized + Debug + 'static {
     const INPUT_DERIVATIVES: Option<InputDerivatives<Self>> = None;
     /// Directional derivatives: `providesDirectionalDerivative`, and `maxOutputDerivativeOrder` is 1.
     const TANGENT: Option<Tangent<Self>> = None;
+    /// Moves on towards an instant (s) by one step of the model's own integrator: the master may then look in
+    /// between its communication points, `providesIntermediateUpdate`.
+    const INTERNAL_STEP: Option<InternalStep<Self>> = None;
     /// State of the FMU: `canGetAndSetFMUstate` and `canSerializeFMUstate`.
     const SAVING: Option<Saving<Self>> = None;
 
@@ -204,6 +208,10 @@ pub struct InputDerivatives<S: Simulation> {
     /// Present first derivatives, by the inputs' numbers.
     pub first: fn(&S) -> &[f64],
 }
+
+/// Moves on towards an instant, s.
+#[expect(type_alias_bounds, reason = "says what S is")]
+pub type InternalStep<S: Simulation> = fn(&mut S, f64) -> Result<(), S::Error>;
 
 /// The change of a sample for a change of states and of inputs: outputs and derivatives read from it are
 /// directional derivatives.

@@ -9,7 +9,7 @@
 //! | 4 | version of this layout |
 //! | 4 | length of everything |
 //! | 16 | [`Model::identity`] |
-//! | 1 | state in the standard's table |
+//! | 1 | [`Phase`] |
 //! | 1 | flags |
 //! | 8 each | start time, stop time, tolerance |
 //! | 8 each | the simulation's numbers or, before it starts, inputs and their derivatives; then zeros |
@@ -20,8 +20,8 @@ use crate::failure::{Failure, Outcome};
 use crate::instance::{Experiment, Instance, Interface, LARGEST, Life, start};
 use crate::model::{Model, Saving, Simulation};
 use crate::pending::Pending;
+use crate::phase::{PHASES, Phase};
 use crate::table::inputs;
-use crate::v2::calls::{PHASES, Phase};
 use crate::variable::{Role, Variable};
 
 const MAGIC: [u8; 8] = *b"FMUSTATE";
@@ -55,7 +55,7 @@ pub struct FmuState<M> {
 
 fn saving<M: Model>() -> Result<&'static Saving<M::Simulation>, Failure> {
     let saving: &Option<Saving<M::Simulation>> = &M::Simulation::SAVING;
-    let missing = Failure::NotProvided { capability: "canGetAndSetFMUstate = false" };
+    let missing = Failure::NotProvided { capability: "that its state can be saved" };
     saving.as_ref().ok_or(missing)
 }
 
@@ -86,12 +86,13 @@ impl<M: Model> Instance<M> {
     /// be started. The instance is then as it was.
     pub fn set_state(&mut self, state: &FmuState<M>) -> Outcome {
         let saving = saving::<M>()?;
-        let other = match self.interface {
-            Interface::ModelExchange => [Phase::StepComplete, Phase::StepFailed],
-            Interface::CoSimulation => [Phase::EventMode, Phase::ContinuousTimeMode],
+        let other = match state.life.phase {
+            Phase::StepComplete | Phase::StepFailed => Some(Interface::CoSimulation),
+            Phase::EventMode | Phase::ContinuousTimeMode => Some(Interface::ModelExchange),
+            _ => None,
         };
-        if other.contains(&state.life.phase) {
-            return Err(Failure::OtherInterface { phase: state.life.phase });
+        if let Some(interface) = other.filter(|&interface| interface != self.interface) {
+            return Err(Failure::OtherInterface { interface });
         }
         match &state.memory {
             Memory::Pending(pending) => {
@@ -247,7 +248,13 @@ fn decode<M: Model>(
     let [phase, flags] = reader.take()?;
     let phase = *PHASES.get(usize::from(phase)).ok_or("their lifecycle state does not exist")?;
     expect(
-        !matches!(phase, Phase::StepInProgress | Phase::StepCanceled | Phase::Fatal),
+        !matches!(
+            phase,
+            Phase::StepInProgress
+                | Phase::StepCanceled
+                | Phase::Fatal
+                | Phase::IntermediateUpdateMode
+        ),
         "their lifecycle state cannot be saved",
     )?;
     const NOT_OURS: &str = "they hold numbers that no instance has";

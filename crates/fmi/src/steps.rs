@@ -1,11 +1,19 @@
-//! Co-Simulation: steps, and their status.
+//! Co-Simulation: steps.
 
 use crate::clock::same_instant;
 use crate::failure::{Failure, Outcome};
 use crate::instance::{Experiment, Instance, LARGEST};
 use crate::model::{Model, ModelError, Remedy, Simulation};
-use crate::v2::calls::Phase;
-use crate::v2::sys::StatusKind;
+use crate::phase::Phase;
+
+/// How far a step goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// To its end.
+    End,
+    /// One step of the model's own integrator, if it has any: [`Simulation::INTERNAL_STEP`].
+    Once,
+}
 
 impl<M: Model> Instance<M> {
     /// `fmi2DoStep`. Rounding in `point` is accepted; the step then starts at the instance's own
@@ -17,6 +25,15 @@ impl<M: Model> Instance<M> {
     /// nothing. After [`Failure::Model`] with the status discard, time and state are those of the last
     /// valid instant.
     pub fn do_step(&mut self, point: f64, step: f64) -> Outcome {
+        let end = self.end_of_step(point, step)?;
+        self.advance(end, Reach::End)
+    }
+
+    /// Where a step ends (s), if it can be taken.
+    ///
+    /// # Errors
+    /// [`Failure::Argument`], [`Failure::CommunicationPoint`] and [`Failure::PastStop`].
+    pub(crate) fn end_of_step(&self, point: f64, step: f64) -> Result<f64, Failure> {
         let time = self.time();
         if !(step > 0.0 && step <= LARGEST) {
             return Err(Failure::Argument {
@@ -35,12 +52,24 @@ impl<M: Model> Instance<M> {
         {
             return Err(Failure::PastStop { end, stop });
         }
+        Ok(end)
+    }
+
+    /// Moves on towards `end`, s.
+    ///
+    /// # Errors
+    /// [`Failure::Model`]; with the status discard time and state are those of the last valid instant.
+    pub(crate) fn advance(&mut self, end: f64, reach: Reach) -> Outcome {
         // A step below the resolution of time ends where it starts.
-        if end == time {
+        if end == self.time() {
             return Ok(());
         }
-        let Err(error) = self.running()?.advance(end) else {
-            self.advise("fmi2DoStep");
+        let move_on = match (reach, M::Simulation::INTERNAL_STEP) {
+            (Reach::Once, Some(once)) => once,
+            _ => M::Simulation::advance,
+        };
+        let Err(error) = move_on(self.running()?, end) else {
+            self.advise();
             return Ok(());
         };
         (self.life.phase, self.life.ended) = match error.remedy() {
@@ -49,35 +78,5 @@ impl<M: Model> Instance<M> {
             Remedy::Reset => (Phase::Error, self.life.ended),
         };
         Err(error.into())
-    }
-
-    /// `fmi2CancelStep`: never legal, as no step is ever pending.
-    ///
-    /// # Errors
-    /// [`Failure::NotProvided`].
-    pub fn cancel_step(&mut self) -> Outcome {
-        Err(Failure::NotProvided { capability: "canRunAsynchronuously = false" })
-    }
-
-    /// `fmi2GetRealStatus`: the end of the last step, or the instant at which it ended early.
-    ///
-    /// # Errors
-    /// [`Failure::NoStatus`].
-    pub fn real_status(&self, kind: StatusKind) -> Result<f64, Failure> {
-        if kind == StatusKind::LAST_SUCCESSFUL_TIME {
-            return Ok(self.time());
-        }
-        Err(Failure::NoStatus { kind, asked: "fmi2Real" })
-    }
-
-    /// `fmi2GetBooleanStatus`: whether the simulation should end.
-    ///
-    /// # Errors
-    /// [`Failure::NoStatus`].
-    pub fn boolean_status(&self, kind: StatusKind) -> Result<bool, Failure> {
-        if kind == StatusKind::TERMINATED {
-            return Ok(self.life.ended);
-        }
-        Err(Failure::NoStatus { kind, asked: "fmi2Boolean" })
     }
 }

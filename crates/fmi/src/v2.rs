@@ -3,4 +3,5 @@
 pub mod abi;
 pub mod calls;
 mod export;
+pub(crate) mod status;
 pub mod sys;

@@ -3,39 +3,67 @@
 use crate::exchange::check_state;
 use crate::failure::{Failure, Outcome};
 use crate::instance::Instance;
-use crate::kinds::Kind;
+use crate::kinds::{Kind, Unit};
 use crate::model::{Model, Simulation};
+use crate::phase::Phase;
+use crate::standard::Standard;
 use crate::table::MOST_KNOWNS;
 use crate::variable::{Role, Variable};
 
-/// The standard's names of the types of values.
-pub(crate) const REAL: &str = "Real";
-const INTEGER: &str = "Integer or Enumeration";
-const BOOLEAN: &str = "Boolean";
-const STRING: &str = "String";
+/// Value reference of the independent variable in FMI 3.0: it belongs to every model, and rows are appended to
+/// the table.
+pub const TIME: u32 = i32::MAX as u32;
+const TIME_KIND: Kind = Kind::Real(Unit::SECOND);
 
-fn type_of<M: Model>(variable: &Variable<M>) -> &'static str {
-    match variable.kind {
-        Kind::Real(_) => REAL,
-        Kind::Enumeration(..) => INTEGER,
-        Kind::Boolean => BOOLEAN,
+/// The type of values that a function works on.
+#[derive(Debug, Clone, Copy)]
+pub struct Type {
+    /// Its name in the standard.
+    pub name: &'static str,
+    /// Its standard.
+    pub standard: Standard,
+    /// Whether variables of this kind have it.
+    pub fits: fn(&Kind) -> bool,
+}
+
+impl Type {
+    const fn fmi2(name: &'static str, fits: fn(&Kind) -> bool) -> Self {
+        Self { name, standard: Standard::Fmi2, fits }
+    }
+}
+
+pub(crate) const REAL: Type = Type::fmi2("Real", |kind| matches!(kind, Kind::Real(_)));
+const INTEGER: Type = Type::fmi2("Integer or Enumeration", |kind| {
+    matches!(kind, Kind::Integer | Kind::Enumeration(..))
+});
+const BOOLEAN: Type = Type::fmi2("Boolean", |kind| matches!(kind, Kind::Boolean));
+const STRING: Type = Type::fmi2("String", |_| false);
+
+/// The type of a variable in the words of a standard.
+fn name_of(kind: &Kind, standard: Standard) -> &'static str {
+    match (standard, kind) {
+        (Standard::Fmi2, Kind::Real(_)) => "Real",
+        (Standard::Fmi2, Kind::Integer | Kind::Enumeration(..)) => "Integer or Enumeration",
+        (Standard::Fmi3, Kind::Real(_)) => "Float64",
+        (Standard::Fmi3, Kind::Integer) => "Int32",
+        (Standard::Fmi3, Kind::Enumeration(..)) => "Int64 (Enumeration)",
+        (_, Kind::Boolean) => "Boolean",
     }
 }
 
 /// The variable behind a value reference, if it is of the type asked for.
 pub(crate) fn variable<M: Model>(
     reference: u32,
-    asked: &'static str,
+    asked: &Type,
 ) -> Result<&'static Variable<M>, Failure> {
     let Some(variable) = M::VARIABLES.get(reference as usize) else {
         return Err(Failure::UnknownReference { reference, count: M::VARIABLES.len() });
     };
-    let has = type_of(variable);
-    if has == asked {
-        Ok(variable)
-    } else {
-        Err(Failure::WrongType { variable: variable.name, reference, asked, has })
+    if (asked.fits)(&variable.kind) {
+        return Ok(variable);
     }
+    let has = name_of(&variable.kind, asked.standard);
+    Err(Failure::WrongType { variable: variable.name, reference, asked: asked.name, has })
 }
 
 impl<M: Model> Instance<M> {
@@ -45,7 +73,7 @@ impl<M: Model> Instance<M> {
     /// [`Failure::UnknownReference`], [`Failure::WrongType`]; [`Failure::Model`] if the model
     /// cannot be evaluated, [`Failure::NotFinite`]. No value is written then.
     pub fn get_real(&mut self, references: &[u32], write: impl FnMut(usize, f64)) -> Outcome {
-        self.read(references, REAL, write)
+        self.get(&REAL, references, write)
     }
 
     /// `fmi2GetInteger`, also for enumerations.
@@ -57,7 +85,7 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         mut write: impl FnMut(usize, i32),
     ) -> Outcome {
-        self.read(references, INTEGER, |i, value| write(i, value as i32))
+        self.get(&INTEGER, references, |i, value| write(i, value as i32))
     }
 
     /// `fmi2GetBoolean`.
@@ -69,7 +97,7 @@ impl<M: Model> Instance<M> {
         references: &[u32],
         mut write: impl FnMut(usize, bool),
     ) -> Outcome {
-        self.read(references, BOOLEAN, |i, value| write(i, value != 0.0))
+        self.get(&BOOLEAN, references, |i, value| write(i, value != 0.0))
     }
 
     /// `fmi2GetString` and `fmi2SetString`: there are no such variables.
@@ -77,32 +105,54 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::get_real`].
     pub fn strings(&self, references: &[u32]) -> Outcome {
-        references.iter().try_for_each(|&reference| variable::<M>(reference, STRING).map(drop))
+        references.iter().try_for_each(|&reference| variable::<M>(reference, &STRING).map(drop))
     }
 
-    /// Outputs are computed when read, so they fit inputs set since the last step. The standard
-    /// forbids masters to ask for that in co-simulation; some do, and consistent values harm nobody.
+    /// Reads variables of a type; `write` gets the position in the array and the value.
+    ///
+    /// Outputs are computed when read, so they fit inputs set since the last step. The standards
+    /// forbid masters to ask for that in co-simulation; some do, and consistent values harm nobody.
     /// States are there, also a trial state for which no outputs can be computed.
-    fn read(
+    ///
+    /// # Errors
+    /// Those of [`Instance::get_real`], and [`Failure::NoValueYet`].
+    pub fn get(
         &mut self,
+        asked: &Type,
         references: &[u32],
-        asked: &'static str,
         mut write: impl FnMut(usize, f64),
     ) -> Outcome {
         for &reference in references {
-            variable::<M>(reference, asked)?;
-        }
-        for &reference in references {
-            let variable = variable(reference, asked)?;
-            let value = self.value(variable)?;
-            if !value.is_finite() {
-                return Err(Failure::NotFinite { variable: variable.name, value });
+            if !self.is_time(reference, asked) {
+                variable::<M>(reference, asked)?;
             }
         }
+        for &reference in references {
+            self.value_of(reference, asked)?;
+        }
         for (i, &reference) in references.iter().enumerate() {
-            write(i, self.value(variable(reference, asked)?)?);
+            write(i, self.value_of(reference, asked)?);
         }
         Ok(())
+    }
+
+    /// Whether a reference is that of the independent variable.
+    fn is_time(&self, reference: u32, asked: &Type) -> bool {
+        reference == TIME && asked.standard == Standard::Fmi3 && (asked.fits)(&TIME_KIND)
+    }
+
+    /// Present value, if it is finite.
+    fn value_of(&mut self, reference: u32, asked: &Type) -> Result<f64, Failure> {
+        if self.is_time(reference, asked) {
+            return Ok(self.time());
+        }
+        let variable = variable::<M>(reference, asked)?;
+        if self.life.phase == Phase::Instantiated && !variable.settable() {
+            return Err(Failure::NoValueYet { variable: variable.name });
+        }
+        let value = self.value(variable)?;
+        let refused = Failure::NotFinite { variable: variable.name, value };
+        value.is_finite().then_some(value).ok_or(refused)
     }
 
     /// Present value. What was set needs no simulation.
@@ -121,9 +171,9 @@ impl<M: Model> Instance<M> {
     ///
     /// # Errors
     /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::TooLate`],
-    /// [`Failure::State`], [`Failure::Refused`]. No value is set then.
+    /// [`Failure::State`], [`Failure::NotSettable`], [`Failure::Refused`]. No value is set then.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Outcome {
-        self.write(references, REAL, |i| values[i])
+        self.set(&REAL, references, |i| values[i])
     }
 
     /// `fmi2SetInteger`, also for enumerations.
@@ -131,7 +181,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::set_real`].
     pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Outcome {
-        self.write(references, INTEGER, |i| values[i].into())
+        self.set(&INTEGER, references, |i| values[i].into())
     }
 
     /// `fmi2SetBoolean`.
@@ -139,16 +189,21 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::set_real`].
     pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Outcome {
-        self.write(references, BOOLEAN, |i| values[i].into())
+        self.set(&BOOLEAN, references, |i| values[i].into())
     }
 
-    /// Inputs are accepted before initialisation too: the standard says no, but several masters set
+    /// Sets variables of a type.
+    ///
+    /// Inputs are accepted before initialisation too: FMI 2.0 says no, but several masters set
     /// all start values there. So are states while the master integrates, which several of them do
-    /// in place of `fmi2SetContinuousStates`: the standard's text allows what its table forbids.
-    fn write(
+    /// in place of `fmi2SetContinuousStates`: its text allows what its table forbids.
+    ///
+    /// # Errors
+    /// Those of [`Instance::set_real`].
+    pub fn set(
         &mut self,
+        asked: &Type,
         references: &[u32],
-        asked: &'static str,
         value: impl Fn(usize) -> f64,
     ) -> Outcome {
         let before = self.before_start();
@@ -164,6 +219,9 @@ impl<M: Model> Instance<M> {
                 }
                 Role::Parameter { .. } if !before => {
                     return Err(Failure::TooLate { variable: variable.name, value: value(i) });
+                }
+                _ if !variable.settable() => {
+                    return Err(Failure::NotSettable { variable: variable.name, value: value(i) });
                 }
                 _ => variable.check(value(i))?,
             }
@@ -182,7 +240,7 @@ impl<M: Model> Instance<M> {
         if let (Some((states, count)), Some(exchange)) = (moved, exchange) {
             (exchange.set_states)(self.running()?, &states[..count]);
         }
-        self.advise("fmi2SetReal");
+        self.advise();
         Ok(())
     }
 

@@ -230,6 +230,9 @@ impl<M: Model> Variable<M> {
                     items.iter().map(|(name, n, _)| format!("{n} {name}")).collect();
                 refuse(format!("choose one of {}", names.join(", ")))
             }
+            Kind::Integer if value != f64::from(value as i32) => {
+                refuse("a whole number of 32 bits is needed".into())
+            }
             Kind::Boolean if value != 0.0 && value != 1.0 => {
                 refuse("choose 0 (false) or 1 (true)".into())
             }

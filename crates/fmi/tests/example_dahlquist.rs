@@ -7,7 +7,8 @@
 mod master;
 
 use dahlquist::Dahlquist;
-use fmi_model::v2::calls::{CALLS, PHASES, Phase};
+use fmi_model::phase::{PHASES, Phase};
+use fmi_model::v2::calls::CALLS;
 use fmi_model::v2::sys::Status;
 use master::fuzz;
 use master::order::{STANDARD, allows, follow};
@@ -47,9 +48,9 @@ fn bring_to(slave: &Slave, phase: Phase) {
 fn the_table_of_legal_calls_is_the_one_of_the_standard() {
     assert_eq!(CALLS.len(), STANDARD.len());
     for call in CALLS {
-        for phase in PHASES {
+        for phase in PHASES.into_iter().filter(|&phase| phase != Phase::IntermediateUpdateMode) {
             let allowed = allows(call.name, phase);
-            assert_eq!(call.allowed_in(phase), allowed, "{} {phase}", call.name);
+            assert_eq!(call.allowed_in(phase), allowed, "{} {phase:?}", call.name);
         }
     }
 }

@@ -5,6 +5,7 @@ use dahlquist::Dahlquist;
 use fmi_model::failure::Outcome;
 use fmi_model::guard::{guarded, run};
 use fmi_model::instance::{Instance, Interface};
+use fmi_model::standard::Standard;
 use fmi_model::v2::calls::{CALLS, RESET};
 use fmi_model::v2::sys::Status;
 use std::any::Any;
@@ -23,7 +24,11 @@ fn a_panic_becomes_fatal_is_logged_without_debug_logging_and_leaves_only_freeing
     assert_eq!(messages.len(), 1);
     assert_eq!(messages[0].status, Status::Fatal);
     assert_eq!(messages[0].category.name(), c"logStatusFatal");
-    assert_eq!(messages[0].text.as_c_str(), c"fmi2Reset: internal error: 100%% lost");
+    assert_eq!(messages[0].text, "fmi2Reset: internal error: 100% lost");
+    assert_eq!(
+        messages[0].escaped(Standard::Fmi2).as_c_str(),
+        c"fmi2Reset: internal error: 100%% lost"
+    );
     for call in CALLS {
         let status = run(&mut instance, call, |_| unreachable!("{} ran", call.name));
         assert_eq!(status, Status::Fatal, "{}", call.name);

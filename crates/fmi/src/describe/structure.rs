@@ -1,43 +1,46 @@
-//! Writes the ModelStructure: what depends on what.
+//! What depends on what: the unknowns of the ModelStructure, by rows of the table.
 
-use super::xml::Xml;
 use crate::kinds::Dependencies;
 use crate::model::Model;
 use crate::table::{known_rows, states};
 use crate::variable::{Role, Variable};
-use std::io;
 
-/// Index of a row in the ModelStructure, which counts from one.
-pub fn index(row: usize) -> usize {
-    row + 1
+/// An unknown and what it depends on.
+pub struct Unknown {
+    /// Its row.
+    pub row: usize,
+    /// Rows of what it depends on, ascending.
+    pub dependencies: Vec<usize>,
+    /// How, unless that is not said.
+    pub kinds: Option<Vec<&'static str>>,
 }
 
-pub fn model_structure<M: Model>(xml: &mut Xml) -> io::Result<()> {
+/// The outputs.
+pub fn outputs<M: Model>() -> impl Iterator<Item = Unknown> {
     let is_output = |role| matches!(role, Role::Output(_) | Role::OutputState(_));
-    let is_derivative = |role| matches!(role, Role::Derivative(_));
-    let is_unknown = |role| !matches!(role, Role::Input(_) | Role::Parameter { .. });
-    unknowns::<M>(xml, "Outputs", is_output, unknown)?;
-    unknowns::<M>(xml, "Derivatives", is_derivative, unknown)?;
-    unknowns::<M>(xml, "InitialUnknowns", is_unknown, initial_unknown)
+    rows::<M>(is_output).map(|(row, variable)| unknown(row, variable))
 }
 
-/// A list of the variables with the wanted roles; the schema has no empty ones.
-fn unknowns<M: Model>(
-    xml: &mut Xml,
-    name: &str,
+/// The derivatives of the states.
+pub fn derivatives<M: Model>() -> impl Iterator<Item = Unknown> {
+    let is_derivative = |role| matches!(role, Role::Derivative(_));
+    rows::<M>(is_derivative).map(|(row, variable)| unknown(row, variable))
+}
+
+/// What the initialisation computes.
+pub fn initial_unknowns<M: Model>() -> impl Iterator<Item = Unknown> {
+    let is_unknown = |role| !matches!(role, Role::Input(_) | Role::Parameter { .. });
+    rows::<M>(is_unknown).map(|(row, variable)| initial_unknown(row, variable))
+}
+
+fn rows<M: Model>(
     wanted: fn(Role<M>) -> bool,
-    write: fn(&mut Xml, usize, &Variable<M>) -> io::Result<()>,
-) -> io::Result<()> {
-    let rows = M::VARIABLES.iter().enumerate();
-    let mut rows = rows.filter(|(_, variable)| wanted(variable.role)).peekable();
-    if rows.peek().is_none() {
-        return Ok(());
-    }
-    xml.parent(name, &[], |xml| rows.try_for_each(|(row, variable)| write(xml, row, variable)))
+) -> impl Iterator<Item = (usize, &'static Variable<M>)> {
+    M::VARIABLES.iter().enumerate().filter(move |(_, variable)| wanted(variable.role))
 }
 
 /// An output or derivative: on which states and inputs it depends, and how.
-fn unknown<M: Model>(xml: &mut Xml, row: usize, variable: &Variable<M>) -> io::Result<()> {
+fn unknown<M: Model>(row: usize, variable: &Variable<M>) -> Unknown {
     let dependencies = variable.dependencies;
     let kinds = [
         (dependencies.dependent, "dependent"),
@@ -49,33 +52,29 @@ fn unknown<M: Model>(xml: &mut Xml, row: usize, variable: &Variable<M>) -> io::R
         .enumerate()
         .filter_map(|(bit, row)| {
             let (_, kind) = kinds.into_iter().find(|(mask, _)| mask & (1 << bit) != 0)?;
-            Some((index(row), kind))
+            Some((row, kind))
         })
         .collect();
     known.sort_unstable();
-    let attributes = [
-        ("index", index(row).to_string()),
-        ("dependencies", list(known.iter().map(|(index, _)| index))),
-        ("dependenciesKind", list(known.iter().map(|(_, kind)| kind))),
-    ];
-    xml.leaf("Unknown", &attributes)
+    let (dependencies, kinds) = known.into_iter().unzip();
+    Unknown { row, dependencies, kinds: Some(kinds) }
 }
 
 /// At initialisation the states are unknowns too, and what is known are parameters and inputs. The
 /// initial state comes from parameters alone, so an input matters only to what depends on it
 /// directly; to say more would make a master see algebraic loops that are not there.
-fn initial_unknown<M: Model>(xml: &mut Xml, row: usize, variable: &Variable<M>) -> io::Result<()> {
+fn initial_unknown<M: Model>(row: usize, variable: &Variable<M>) -> Unknown {
     let Dependencies { dependent, fixed, constant } = variable.dependencies;
     let inputs = (dependent | fixed | constant) >> states::<M>();
     let known = M::VARIABLES.iter().enumerate().filter_map(|(row, known)| match known.role {
-        Role::Input(input) => (inputs & (1 << input) != 0).then(|| index(row)),
-        Role::Parameter { .. } => Some(index(row)),
+        Role::Input(input) => (inputs & (1 << input) != 0).then_some(row),
+        Role::Parameter { .. } => Some(row),
         _ => None,
     });
-    let attributes = [("index", index(row).to_string()), ("dependencies", list(known))];
-    xml.leaf("Unknown", &attributes)
+    Unknown { row, dependencies: known.collect(), kinds: None }
 }
 
-fn list(items: impl Iterator<Item = impl ToString>) -> String {
-    items.map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
+/// A list as an attribute.
+pub fn list(items: impl IntoIterator<Item = impl ToString>) -> String {
+    items.into_iter().map(|item| item.to_string()).collect::<Vec<_>>().join(" ")
 }

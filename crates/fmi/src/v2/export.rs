@@ -69,19 +69,3 @@ macro_rules! __fmi2_export {
         )*
     };
 }
-
-/// Exports the functions of FMI 2.0 for a [`Model`](crate::Model): all that a `cdylib` needs.
-///
-/// A table of variables that no master could use does not compile, see [`crate::table::check`].
-#[macro_export]
-macro_rules! export {
-    ($model:ty) => {
-        #[allow(unsafe_code, non_snake_case, unused_imports)]
-        const _: () = {
-            use core::ffi::c_char;
-            use $crate::v2::sys::*;
-            $crate::table::check::<$model>();
-    $crate::__fmi2_functions!(__fmi2_export $model);
-        };
-    };
-}

@@ -1,6 +1,7 @@
 //! C types of FMI 2.0 (`fmi2TypesPlatform.h`, `fmi2FunctionTypes.h`), written by hand and proved
 //! against the official headers by `tests/headers.rs`.
 
+pub use crate::status::Status;
 use core::ffi::{c_char, c_double, c_int, c_uint, c_void};
 
 /// `fmi2Component`.
@@ -26,24 +27,6 @@ pub type Byte = c_char;
 pub const TRUE: Boolean = 1;
 /// `fmi2False`.
 pub const FALSE: Boolean = 0;
-
-/// `fmi2Status`. Only ever produced here, so a Rust enumeration is safe.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[repr(C)]
-pub enum Status {
-    /// `fmi2OK`.
-    Ok,
-    /// `fmi2Warning`.
-    Warning,
-    /// `fmi2Discard`.
-    Discard,
-    /// `fmi2Error`.
-    Error,
-    /// `fmi2Fatal`.
-    Fatal,
-    /// `fmi2Pending`.
-    Pending,
-}
 
 /// `fmi2Type`. A master may pass any number, so this is no Rust enumeration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

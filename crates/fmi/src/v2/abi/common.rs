@@ -1,16 +1,14 @@
 //! Functions that co-simulation and model exchange have in common (section 2.1).
 
-use super::entry::{Component, deliver, enter, input, string};
-use crate::guard::guarded;
+use super::entry::enter;
+use crate::abi::{self, input, string};
 use crate::instance::{Instance, Interface};
 use crate::instantiate::Request;
-use crate::log::Message;
 use crate::model::Model;
 use crate::v2::calls;
 use crate::v2::sys::{self, FmiString, Real, Status};
-use core::ffi::{CStr, c_char};
+use core::ffi::c_char;
 use core::ptr;
-use std::ffi::CString;
 
 pub unsafe fn fmi2GetTypesPlatform<M: Model>() -> *const c_char {
     c"default".as_ptr()
@@ -58,42 +56,19 @@ pub unsafe fn fmi2Instantiate<M: Model>(
     }
     // SAFETY: not NULL, and the master's struct is valid during this call.
     let callbacks = unsafe { functions.read() };
-    let made = guarded(
-        || {
-            // SAFETY: the master passes NULL or C strings.
-            let (name, given) =
-                unsafe { (string("instanceName", instanceName), string("fmuGUID", fmuGUID)) };
-            let [name, given] =
-                [name, given].map(|text| text.map_err(|failure| failure.to_string()));
-            instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
-        },
-        |panic| Err(format!("internal error: {panic}")),
-    );
-    let name = if instanceName.is_null() {
-        CString::default()
-    } else {
-        // SAFETY: not NULL, hence a C string.
-        unsafe { CStr::from_ptr(instanceName) }.to_owned()
+    let make = || {
+        // SAFETY: the master passes NULL or C strings.
+        let texts = unsafe { [string("instanceName", instanceName), string("fmuGUID", fmuGUID)] };
+        let [name, given] = texts.map(|text| text.map_err(|failure| failure.to_string()));
+        instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
     };
-    match made {
-        // The allocator is Rust's, not allocateMemory of the callbacks: the model description says
-        // canNotUseMemoryManagementFunctions = true, and section 2.1.5 discourages the latter.
-        Ok(instance) => Box::into_raw(Box::new(Component { instance, name, callbacks })).cast(),
-        Err(text) => {
-            let message = Message::new(Status::Error, &format!("fmi2Instantiate: {text}"));
-            // SAFETY: the logger is the master's, the name is a live C string.
-            unsafe { deliver(&callbacks, name.as_ptr(), &message) };
-            ptr::null_mut()
-        }
-    }
+    // SAFETY: the master passes NULL or a C string, and callbacks of the standard.
+    unsafe { abi::create("fmi2Instantiate", instanceName, callbacks, make) }
 }
 
 pub unsafe fn fmi2FreeInstance<M: Model>(c: sys::Component) {
-    if !c.is_null() {
-        // SAFETY: the master passes what fmi2Instantiate made, once.
-        let component = unsafe { Box::from_raw(c.cast::<Component<M>>()) };
-        guarded(|| drop(component), |_| ());
-    }
+    // SAFETY: the master passes what fmi2Instantiate made, once.
+    unsafe { abi::free::<M, sys::CallbackFunctions>(c) }
 }
 
 pub unsafe fn fmi2SetDebugLogging<M: Model>(

@@ -1,10 +1,11 @@
 //! Functions for co-simulation only (section 4.2).
 
-use super::entry::{enter, store};
-use crate::failure::Failure;
+use super::entry::enter;
+use crate::abi::store;
 use crate::instance::Instance;
 use crate::model::Model;
 use crate::v2::calls;
+use crate::v2::status::no_status;
 use crate::v2::sys::{self, Boolean, Component, FmiString, Integer, Real, Status, StatusKind};
 
 /// Snapshots outlive any step, so `noSetFMUStatePriorToCurrentPoint` changes nothing.
@@ -27,7 +28,7 @@ pub unsafe fn fmi2CancelStep<M: Model>(c: Component) -> Status {
 }
 
 pub unsafe fn fmi2GetStatus<M: Model>(c: Component, s: StatusKind, _value: *mut Status) -> Status {
-    let body = |_: &mut Instance<M>| Err(Failure::NoStatus { kind: s, asked: "fmi2Status" });
+    let body = |_: &mut Instance<M>| Err(no_status(s, "fmi2Status"));
     // SAFETY: the master passes one of its instances.
     unsafe { enter(c, &calls::GET_STATUS, body) }
 }
@@ -47,7 +48,7 @@ pub unsafe fn fmi2GetIntegerStatus<M: Model>(
     s: StatusKind,
     _value: *mut Integer,
 ) -> Status {
-    let body = |_: &mut Instance<M>| Err(Failure::NoStatus { kind: s, asked: "fmi2Integer" });
+    let body = |_: &mut Instance<M>| Err(no_status(s, "fmi2Integer"));
     // SAFETY: the master passes one of its instances.
     unsafe { enter(c, &calls::GET_INTEGER_STATUS, body) }
 }
@@ -71,7 +72,7 @@ pub unsafe fn fmi2GetStringStatus<M: Model>(
     s: StatusKind,
     _value: *mut FmiString,
 ) -> Status {
-    let body = |_: &mut Instance<M>| Err(Failure::NoStatus { kind: s, asked: "fmi2String" });
+    let body = |_: &mut Instance<M>| Err(no_status(s, "fmi2String"));
     // SAFETY: the master passes one of its instances.
     unsafe { enter(c, &calls::GET_STRING_STATUS, body) }
 }

@@ -1,10 +1,12 @@
 //! Functions for model exchange only (section 3.2).
 
-use super::entry::{enter, input, output, room, store};
+use super::entry::enter;
+use crate::abi::{input, output, room, store};
 use crate::failure::Outcome;
 use crate::instance::Instance;
 use crate::model::Model;
-use crate::v2::calls::{self as calls, Call};
+use crate::phase::Call;
+use crate::v2::calls;
 use crate::v2::sys::{self, Boolean, Component, EventInfo, Real, Status};
 use core::mem::MaybeUninit;
 

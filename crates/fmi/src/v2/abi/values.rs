@@ -1,6 +1,7 @@
 //! Values of variables and their derivatives (sections 2.1.7 and 2.1.9).
 
-use super::entry::{enter, input, output};
+use super::entry::enter;
+use crate::abi::{input, output};
 use crate::instance::Instance;
 use crate::model::Model;
 use crate::v2::calls;

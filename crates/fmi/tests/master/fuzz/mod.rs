@@ -6,7 +6,8 @@ mod player;
 mod plays;
 
 use super::{Api, Random};
-use fmi_model::v2::calls::{CALLS, Call, Phase};
+use fmi_model::phase::{Call, Phase};
+use fmi_model::v2::calls::CALLS;
 use fmi_model::v2::sys::Status;
 use fmi_model::{Model, Simulation};
 use player::{Player, RARELY};
@@ -81,7 +82,7 @@ fn play_sequence<M: Model>(api: &Api<M>, seed: u64, tally: &mut Tally) {
         let status = play(&mut player, &mut random);
         let log = player.slave.log();
         let legal = allowed && !player.unsound;
-        let scene = || format!("seed {seed}: {name} in {phase}: {status:?} {log:?}");
+        let scene = || format!("seed {seed}: {name} in {phase:?}: {status:?} {log:?}");
         match status {
             Status::Ok => tally.done += 1,
             Status::Discard => tally.discarded += 1,

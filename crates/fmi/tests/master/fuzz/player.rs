@@ -1,7 +1,7 @@
 //! The master that plays: its instance, what it knows of it, and the arguments it passes.
 
 use super::super::{Api, Random, Slave, all_reals};
-use fmi_model::v2::calls::Phase;
+use fmi_model::phase::Phase;
 use fmi_model::v2::sys::{Component, FmuState, Status, ValueReference};
 use fmi_model::{Kind, Model, Simulation, Variable, table};
 use std::fmt::Debug;

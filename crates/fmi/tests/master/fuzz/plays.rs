@@ -2,7 +2,7 @@
 
 use super::super::Random;
 use super::player::{Array, BLANK, BLANK_INTEGER, Player, Saved, boolean, integer, real};
-use fmi_model::v2::calls::Phase;
+use fmi_model::phase::Phase;
 use fmi_model::v2::sys::{Boolean, EventInfo, FmiString, FmuState, Status, StatusKind};
 use fmi_model::{Model, Simulation, table};
 use std::ffi::CStr;
