@@ -140,6 +140,7 @@ mod pending;
 #[cfg(feature = "package")]
 pub mod platform;
 mod short;
+pub mod standard;
 pub mod state;
 mod steps;
 pub mod table;

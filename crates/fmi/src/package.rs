@@ -13,6 +13,7 @@ use crate::archive::zip;
 use crate::describe::model_description;
 use crate::model::Model;
 use crate::platform::Platform;
+use crate::standard::Standard;
 use std::collections::BTreeMap;
 use std::env::{self, consts};
 use std::fs;
@@ -58,7 +59,7 @@ pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageErr
         |error| PackageError::File { file, error }
     };
     let content = fs::read(library).map_err(failed(library))?;
-    let name = platform.binary(M::ABOUT.identifier);
+    let name = platform.binary(Standard::Fmi2, M::ABOUT.identifier);
     let description = model_description::<M>()?.into_bytes();
     let files =
         BTreeMap::from([("modelDescription.xml".to_string(), description), (name, content)]);
