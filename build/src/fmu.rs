@@ -4,6 +4,7 @@ use crate::model_description::ModelDescription;
 use crate::package::{Binary, host};
 use crate::workspace::{MAX_BINARY_BYTES, read, shown, write};
 use anyhow::{Context, Result, bail};
+use fmi_model::standard::Standard;
 use std::io::{Cursor, Read};
 use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
@@ -52,7 +53,7 @@ impl Fmu {
             bail!("{name}: the modelIdentifier {identifier:?} is not a C identifier");
         }
         let host = host()?;
-        let binary = host.binary(identifier);
+        let binary = host.binary(Standard::Fmi2, identifier);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is missing");

@@ -16,6 +16,7 @@ use crate::{console, documentation, licenses};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
+use fmi_model::standard::Standard;
 pub use platform::host;
 use platform::{LINUX, Platform, WINDOWS};
 use std::collections::BTreeMap;
@@ -100,7 +101,7 @@ fn package(libraries: Libraries, output: &Path) -> Result<()> {
     for Library { platform, binary, .. } in &libraries.found {
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
-        outln!("  {} needs {}{}", platform.name, glibc.unwrap_or_default(), needed.join(", "))?;
+        outln!("  {} needs {}{}", platform.fmi2, glibc.unwrap_or_default(), needed.join(", "))?;
     }
     for text in libraries.missing {
         outln!("  {text}")?;
@@ -118,7 +119,7 @@ pub fn build_default(targets: Targets) -> Result<PathBuf> {
 /// Whether a file is an FMU with a Windows library.
 fn has_windows(file: &Path) -> bool {
     names(file).is_ok_and(|names| {
-        let folder = format!("binaries/{}/", WINDOWS.name);
+        let folder = format!("binaries/{}/", WINDOWS.fmi2);
         names.iter().any(|name| name.starts_with(&folder))
     })
 }
@@ -145,7 +146,7 @@ impl Libraries {
     /// Inspects a library and adds it if it is valid for its platform.
     fn add(&mut self, (platform, file): (Platform, PathBuf)) -> Result<&Binary> {
         if self.found.iter().any(|known| known.platform == platform) {
-            bail!("there are two libraries for {}", platform.name);
+            bail!("there are two libraries for {}", platform.fmi2);
         }
         let content = read(&file, MAX_BINARY_BYTES)?;
         let binary = Binary::parse(&content).with_context(|| shown(&file))?;
@@ -169,7 +170,7 @@ impl Libraries {
             libraries = Self::host()?;
             libraries.missing.push(format!(
                 "contains only {}: packages for Linux and Windows are built on Linux (x86-64)",
-                host.name
+                host.fmi2
             ));
             return Ok(libraries);
         }
@@ -217,7 +218,7 @@ fn contents(libraries: &[Library]) -> Result<Files> {
     files.insert("model.png".to_string(), icon("vehicle")?);
     let mut machines = Vec::new();
     for Library { platform, content, binary } in libraries {
-        let name = platform.binary(MODEL_IDENTIFIER);
+        let name = platform.binary(Standard::Fmi2, MODEL_IDENTIFIER);
         machines.push(platform::machines(*platform, binary.glibc));
         files.insert(name, content.clone());
     }

@@ -107,7 +107,7 @@ impl Binary {
         if (self.format, self.architecture) != (format, architecture) {
             bail!(
                 "{} needs {format:?} for {architecture:?}, this is {:?} for {:?}",
-                platform.name,
+                platform.fmi2,
                 self.format,
                 self.architecture
             );
@@ -126,22 +126,22 @@ impl Binary {
         };
         let foreign: Vec<_> = self.needed.iter().filter(|name| !known(name)).cloned().collect();
         if !foreign.is_empty() {
-            bail!("{} needs {}: not part of the system", platform.name, foreign.join(", "));
+            bail!("{} needs {}: not part of the system", platform.fmi2, foreign.join(", "));
         }
         let standard: BTreeSet<_> =
             signatures().into_iter().map(|(name, _)| name.to_string()).collect();
         let lacking: Vec<_> = standard.difference(&self.exports).cloned().collect();
         if lacking.len() == standard.len() {
-            bail!("{} needs the functions of FMI 2.0: this library has none", platform.name);
+            bail!("{} needs the functions of FMI 2.0: this library has none", platform.fmi2);
         }
         if !lacking.is_empty() {
-            bail!("{} lacks functions of FMI 2.0: {}", platform.name, lacking.join(", "));
+            bail!("{} lacks functions of FMI 2.0: {}", platform.fmi2, lacking.join(", "));
         }
         let more: Vec<_> = self.exports.difference(&standard).cloned().collect();
         if !more.is_empty() {
             bail!(
                 "{} exports functions that are not in FMI 2.0: {}",
-                platform.name,
+                platform.fmi2,
                 more.join(", ")
             );
         }
@@ -152,11 +152,11 @@ impl Binary {
     pub fn check_everywhere(&self, platform: Platform) -> Result<()> {
         self.check(platform)?;
         if self.needed.contains(UNWINDER) {
-            bail!("{} needs {UNWINDER}: not part of every system", platform.name);
+            bail!("{} needs {UNWINDER}: not part of every system", platform.fmi2);
         }
         if let Some((major, minor)) = self.glibc.filter(|version| *version > GLIBC) {
             let (most, least) = GLIBC;
-            bail!("{} needs glibc {major}.{minor}, newer than {most}.{least}", platform.name);
+            bail!("{} needs glibc {major}.{minor}, newer than {most}.{least}", platform.fmi2);
         }
         Ok(())
     }

@@ -35,14 +35,14 @@ pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
         .env("CARGO_ZIGBUILD_CACHE_DIR", caches.join("zigbuild"))
         .env("ZIG_GLOBAL_CACHE_DIR", caches.join("global"))
         .env("ZIG_LOCAL_CACHE_DIR", caches.join("local"));
-    compile(command, LINUX, LINUX.name, Vec::new())
+    compile(command, LINUX, LINUX.fmi2, Vec::new())
 }
 
 /// Builds the library for Windows.
 pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
     let mut flags = vec!["-Clink-arg=-Wl,--no-insert-timestamp".into()];
     flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
-    compile(toolchain.command, WINDOWS, WINDOWS.name, flags)
+    compile(toolchain.command, WINDOWS, WINDOWS.fmi2, flags)
 }
 
 /// Runs `cargo rustc` with our options; returns the path of the library.
@@ -68,7 +68,7 @@ fn compile(
         .output()
         .with_context(|| format!("cannot start {}", command.get_program().display()))?;
     if !output.status.success() {
-        bail!("the library for {} does not compile: see the messages above", platform.name);
+        bail!("the library for {} does not compile: see the messages above", platform.fmi2);
     }
     String::from_utf8_lossy(&output.stdout)
         .lines()

@@ -29,11 +29,12 @@ pub fn machines(platform: Platform, glibc: Option<Glibc>) -> String {
 
 /// Parses a `--library` option, `platform=file`.
 pub fn parse_library_option(text: &str) -> Result<(Platform, PathBuf)> {
-    let known = || PLATFORMS.map(|platform| platform.name).join(", ");
+    let known = || PLATFORMS.map(|platform| platform.fmi2).join(", ");
     let Some((name, file)) = text.split_once('=') else {
         bail!("--library {text}: PLATFORM=FILE is expected; platforms are {}", known());
     };
-    let Some(platform) = PLATFORMS.into_iter().find(|platform| platform.name == name) else {
+    let named = |platform: &Platform| [platform.fmi2, platform.fmi3].contains(&name);
+    let Some(platform) = PLATFORMS.into_iter().find(named) else {
         bail!("--library {text}: there is no platform `{name}`; platforms are {}", known());
     };
     Ok((platform, file.into()))
@@ -42,19 +43,23 @@ pub fn parse_library_option(text: &str) -> Result<(Platform, PathBuf)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use fmi_model::standard::Standard;
 
     #[test]
     fn every_machine_has_the_name_of_what_it_is() {
-        for (os, arch, name) in [
-            ("linux", "x86_64", "linux64"),
-            ("linux", "aarch64", "aarch64-linux"),
-            ("windows", "x86_64", "win64"),
-            ("windows", "aarch64", "aarch64-windows"),
-            ("macos", "x86_64", "darwin64"),
-            ("macos", "aarch64", "aarch64-darwin"),
+        for (os, arch, fmi2, fmi3) in [
+            ("linux", "x86_64", "linux64", "x86_64-linux"),
+            ("linux", "aarch64", "aarch64-linux", "aarch64-linux"),
+            ("windows", "x86_64", "win64", "x86_64-windows"),
+            ("windows", "aarch64", "aarch64-windows", "aarch64-windows"),
+            ("macos", "x86_64", "darwin64", "x86_64-darwin"),
+            ("macos", "aarch64", "aarch64-darwin", "aarch64-darwin"),
         ] {
             let platform = Platform::of(os, arch).unwrap();
-            assert_eq!(platform.name, name);
+            let binary = |standard| platform.binary(standard, "a");
+            let ending = platform.ending;
+            assert_eq!(binary(Standard::Fmi2), format!("binaries/{fmi2}/a.{ending}"));
+            assert_eq!(binary(Standard::Fmi3), format!("binaries/{fmi3}/a.{ending}"));
             assert!(platform.triple.starts_with(arch));
         }
         assert_eq!(Platform::of("linux", "s390x"), None);
@@ -73,7 +78,9 @@ mod tests {
 
     #[test]
     fn library_options_name_the_platform() {
-        assert_eq!(parse_library_option("win64=a.dll").unwrap(), (WINDOWS, PathBuf::from("a.dll")));
+        for text in ["win64=a.dll", "x86_64-windows=a.dll"] {
+            assert_eq!(parse_library_option(text).unwrap(), (WINDOWS, PathBuf::from("a.dll")));
+        }
         let message = parse_library_option("win32=a.dll").unwrap_err().to_string();
         assert!(message.contains("`win32`") && message.contains("linux64, win64, darwin64"));
     }

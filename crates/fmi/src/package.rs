@@ -1,7 +1,7 @@
-//! An FMU around a library that Cargo built.
+//! FMUs around a library that Cargo built: one for each standard.
 //!
-//! A package with a `cdylib` and a program that calls [`main`] is all that an FMU needs: `cargo run
-//! --release` builds both and writes the FMU beside them.
+//! A package with a `cdylib` and a program that calls [`main`] is all that they need: `cargo run
+//! --release` builds both and writes the FMUs beside them.
 
 #![allow(
     clippy::disallowed_macros,
@@ -51,7 +51,11 @@ pub enum PackageError {
 ///
 /// # Errors
 /// [`PackageError`]; a file that is there is replaced only by a whole one.
-pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageError> {
+pub fn package<M: Model>(
+    library: &Path,
+    standard: Standard,
+    output: &Path,
+) -> Result<(), PackageError> {
     let (os, arch) = (consts::OS, consts::ARCH);
     let platform = Platform::of(os, arch).ok_or(PackageError::Platform { os, arch })?;
     let failed = |file: &Path| {
@@ -59,8 +63,8 @@ pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageErr
         |error| PackageError::File { file, error }
     };
     let content = fs::read(library).map_err(failed(library))?;
-    let name = platform.binary(M::ABOUT.identifier);
-    let description = model_description::<M>(Standard::Fmi2)?.into_bytes();
+    let name = platform.binary(standard, M::ABOUT.identifier);
+    let description = model_description::<M>(standard)?.into_bytes();
     let files =
         BTreeMap::from([("modelDescription.xml".to_string(), description), (name, content)]);
     let beside = output.with_extension("fmu.part");
@@ -68,20 +72,26 @@ pub fn package<M: Model>(library: &Path, output: &Path) -> Result<(), PackageErr
     fs::rename(&beside, output).map_err(failed(output))
 }
 
-/// The program that writes `<identifier>.fmu` beside itself, where Cargo also puts the library.
+/// The program that writes the FMUs of both standards beside itself, where Cargo also puts the library.
 pub fn main<M: Model>() -> ExitCode {
     let identifier = M::ABOUT.identifier;
     let written = env::current_exe()
         .map_err(|error| PackageError::File { file: "this program".into(), error })
         .and_then(|program| {
             let library = format!("{}{identifier}{}", consts::DLL_PREFIX, consts::DLL_SUFFIX);
-            let output = program.with_file_name(format!("{identifier}.fmu"));
-            package::<M>(&program.with_file_name(library), &output)?;
-            Ok(output)
+            let library = program.with_file_name(library);
+            let outputs = Standard::ALL
+                .map(|standard| (standard, program.with_file_name(standard.file_name(identifier))));
+            for (standard, output) in &outputs {
+                package::<M>(&library, *standard, output)?;
+            }
+            Ok(outputs)
         });
     match written {
-        Ok(output) => {
-            println!("{}", output.display());
+        Ok(outputs) => {
+            for (_, output) in outputs {
+                println!("{}", output.display());
+            }
             ExitCode::SUCCESS
         }
         Err(error) => {
