@@ -150,7 +150,8 @@ impl Flight {
         self.run(end, false)
     }
 
-    /// Flies towards `end` (s) by one step of the integrator, which may be all of it.
+    /// Flies towards `end` (s) by one step of the integrator, which may be all of it. Derivatives of inputs that
+    /// were given for the way to `end` go on if it is not.
     ///
     /// # Errors
     /// Those of [`Flight::advance`].
@@ -183,7 +184,8 @@ impl Flight {
             | Outcome::TooManySteps(flown)
             | Outcome::Paused(flown) => flown,
         };
-        *inputs = inputs.after(flown);
+        let unfinished = inputs.moving() && matches!(outcome, Outcome::Paused(_));
+        *inputs = Inputs { ahead: unfinished, ..inputs.after(flown) };
         self.sample = None;
         match outcome {
             Outcome::Complete => {

@@ -142,7 +142,8 @@ pub trait Simulation: Sized + Debug + 'static {
     /// Directional derivatives: `providesDirectionalDerivative`, and `maxOutputDerivativeOrder` is 1.
     const TANGENT: Option<Tangent<Self>> = None;
     /// Moves on towards an instant (s) by one step of the model's own integrator: the master may then look in
-    /// between its communication points, `providesIntermediateUpdate`.
+    /// between its communication points, `providesIntermediateUpdate`. Derivatives of inputs for the way there
+    /// hold until it is reached.
     const INTERNAL_STEP: Option<InternalStep<Self>> = None;
     /// State of the FMU: `canGetAndSetFMUstate` and `canSerializeFMUstate`.
     const SAVING: Option<Saving<Self>> = None;

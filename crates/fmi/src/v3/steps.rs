@@ -1,20 +1,52 @@
 //! Steps of FMI 3.0: a step that the model ends is no failure, and one that it cannot do changes nothing.
 
 use crate::failure::{Failure, Outcome};
-use crate::instance::Instance;
+use crate::instance::{Instance, LARGEST};
 use crate::model::{Model, Remedy, Simulation};
 use crate::phase::Phase;
 use crate::status::Status;
 use crate::steps::Reach;
+use crate::table::{MOST_KNOWNS, inputs};
 
 impl<M: Model> Instance<M> {
-    /// Remembers where a step begins.
-    pub(crate) fn remember(&mut self) {
-        if let (Some(saving), Some(simulation)) = (&M::Simulation::SAVING, &self.simulation) {
-            self.start_of_step.clear();
-            self.start_of_step.reserve(saving.count);
-            (saving.save)(simulation, &mut self.start_of_step);
+    /// Remembers where a step begins, and what the inputs are.
+    ///
+    /// # Errors
+    /// Those of [`Model::start`].
+    pub(crate) fn remember(&mut self, inputs: &mut [f64; MOST_KNOWNS]) -> Outcome {
+        let mut numbers = std::mem::take(&mut self.start_of_step);
+        let simulation = self.running()?;
+        let present = simulation.inputs();
+        inputs[..present.len()].copy_from_slice(present);
+        if let Some(saving) = &M::Simulation::SAVING {
+            numbers.clear();
+            numbers.reserve(saving.count);
+            (saving.save)(simulation, &mut numbers);
         }
+        self.start_of_step = numbers;
+        Ok(())
+    }
+
+    /// Lets the inputs move from their values at the start of the step to the present ones at its end, linearly.
+    ///
+    /// # Errors
+    /// Those of [`Model::start`].
+    pub(crate) fn interpolate(&mut self, start: &[f64; MOST_KNOWNS], end: f64) -> Outcome {
+        let simulation = self.running()?;
+        let length = end - simulation.time();
+        for (number, &start) in start.iter().enumerate().take(inputs::<M>()) {
+            let change = simulation.inputs()[number] - start;
+            if change == 0.0 {
+                continue;
+            }
+            simulation.set_input(number, start);
+            if let Some(moving) = &M::Simulation::INPUT_DERIVATIVES
+                && (change / length).abs() <= LARGEST
+            {
+                (moving.set)(simulation, number, 1, change / length);
+            }
+        }
+        Ok(())
     }
 
     /// Moves on towards `target`, s.

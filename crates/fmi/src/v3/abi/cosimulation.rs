@@ -6,6 +6,7 @@ use crate::failure::{Failure, Outcome};
 use crate::instance::Instance as Of;
 use crate::model::Model;
 use crate::steps::Reach;
+use crate::table::MOST_KNOWNS;
 use crate::v3::calls;
 use crate::v3::sys::{Boolean, Float64, Instance, Status};
 use core::mem::MaybeUninit;
@@ -64,11 +65,18 @@ pub unsafe fn fmi3DoStep<M: Model>(
     };
     let [mut end, mut target] = [0.0; 2];
     let reach = if environment.update.is_some() { Reach::Once } else { Reach::End };
+    // Where the inputs are when the step ends is asked before it begins.
+    let mut asks = environment.update.is_some() && environment.moves_inputs;
+    let mut inputs = [0.0; MOST_KNOWNS];
     let first = |instance: &mut Of<M>| {
         answers()?;
         end = instance.end_of_step(currentCommunicationPoint, communicationStepSize)?;
         target = end;
-        instance.remember();
+        instance.remember(&mut inputs)?;
+        if asks {
+            instance.pause();
+            return Ok(());
+        }
         leg(instance, answers, end, target, reach, &environment)
     };
     // SAFETY: one of the master's instances.
@@ -76,25 +84,39 @@ pub unsafe fn fmi3DoStep<M: Model>(
     let Some(update) = environment.update else { return status };
     loop {
         // SAFETY: one of the master's instances, with which no call is busy.
-        let time = match unsafe { look::<M>(instance) } {
+        let now = match unsafe { look::<M>(instance) } {
             (of, _) if status == Status::Ok && of.paused() => of.time(),
             _ => return status,
         };
-        let may_return = environment.early_return_allowed && time < end;
+        let time = if asks { end } else { now };
+        let may_return = !asks && environment.early_return_allowed && time < end;
         let (mut requested, mut wanted) = (Boolean::FALSE, time);
+        let [known, may_return_early] = [!asks, may_return].map(Boolean::from);
+        let (set, answers_to) = (Boolean::TRUE, (&raw mut requested, &raw mut wanted));
         // SAFETY: the master's callback and its pointer; it may call the instance, to which there is no
         // reference here.
         unsafe {
-            let (yes, may_return) = (Boolean::TRUE, may_return.into());
-            let answers = (&raw mut requested, &raw mut wanted);
-            update(environment.pointer, time, yes, yes, yes, may_return, answers.0, answers.1);
+            update(
+                environment.pointer,
+                time,
+                set,
+                known,
+                known,
+                may_return_early,
+                answers_to.0,
+                answers_to.1,
+            );
         }
         if may_return && requested.is_true() {
             // A time in the past, or none at all, is now.
             target = wanted.max(time).min(target);
         }
+        let interpolate = std::mem::take(&mut asks);
         let next = |instance: &mut Of<M>| {
             instance.resume();
+            if interpolate {
+                instance.interpolate(&inputs, end)?;
+            }
             leg(instance, answers, end, target, reach, &environment)
         };
         // SAFETY: one of the master's instances.

@@ -17,6 +17,8 @@ pub(super) struct Environment {
     pub log: Option<LogMessageCallback>,
     pub update: Option<IntermediateUpdateCallback>,
     pub early_return_allowed: bool,
+    /// Whether the master wants to set inputs within a step.
+    pub moves_inputs: bool,
 }
 
 impl Callbacks for Environment {

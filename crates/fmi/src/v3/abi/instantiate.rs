@@ -47,8 +47,9 @@ unsafe fn make<M: Model>(arguments: &Arguments, interface: Interface) -> Result<
     Of::instantiate(request).map_err(|problem| problem.to_string())
 }
 
-/// Whether the master may set or read all these within a step.
-fn check_intermediate<M: Model>(references: &[ValueReference]) -> Result<(), String> {
+/// Whether there is an input among these, all of which the master may set or read within a step.
+fn moves_inputs<M: Model>(references: &[ValueReference]) -> Result<bool, String> {
+    let mut input = false;
     for &reference in references {
         let role = M::VARIABLES.get(reference as usize).map(|variable| variable.role);
         let exchanged =
@@ -59,8 +60,9 @@ fn check_intermediate<M: Model>(references: &[ValueReference]) -> Result<(), Str
                  intermediateUpdate in the model description"
             ));
         }
+        input |= matches!(role, Some(Role::Input(_)));
     }
-    Ok(())
+    Ok(input)
 }
 
 pub unsafe fn fmi3InstantiateModelExchange<M: Model>(
@@ -77,6 +79,7 @@ pub unsafe fn fmi3InstantiateModelExchange<M: Model>(
         log: logMessage,
         update: None,
         early_return_allowed: false,
+        moves_inputs: false,
     };
     let arguments = Arguments {
         name: instanceName,
@@ -106,11 +109,12 @@ pub unsafe fn fmi3InstantiateCoSimulation<M: Model>(
     logMessage: Option<LogMessageCallback>,
     intermediateUpdate: Option<IntermediateUpdateCallback>,
 ) -> Instance {
-    let environment = Environment {
+    let mut environment = Environment {
         pointer: instanceEnvironment,
         log: logMessage,
         update: intermediateUpdate,
         early_return_allowed: earlyReturnAllowed.is_true(),
+        moves_inputs: false,
     };
     let arguments = Arguments {
         name: instanceName,
@@ -118,8 +122,16 @@ pub unsafe fn fmi3InstantiateCoSimulation<M: Model>(
         resources: resourcePath,
         logging_on: loggingOn,
     };
-    // SAFETY: the master passes NULL or C strings, an array of the length it states, and callbacks of the
-    // standard.
+    // SAFETY: the master passes an array of the length it states.
+    let references = unsafe {
+        let argument = "requiredIntermediateVariables";
+        input(argument, requiredIntermediateVariables, nRequiredIntermediateVariables)
+    };
+    let moves = references
+        .map_err(|failure| failure.to_string())
+        .and_then(|references| moves_inputs::<M>(references));
+    environment.moves_inputs = moves == Ok(true);
+    // SAFETY: the master passes NULL or C strings, and callbacks of the standard.
     unsafe {
         abi::create("fmi3InstantiateCoSimulation", instanceName, environment, || {
             if eventModeUsed.is_true() {
@@ -129,12 +141,7 @@ pub unsafe fn fmi3InstantiateCoSimulation<M: Model>(
                         .to_string(),
                 );
             }
-            let references = input(
-                "requiredIntermediateVariables",
-                requiredIntermediateVariables,
-                nRequiredIntermediateVariables,
-            );
-            check_intermediate::<M>(references.map_err(|failure| failure.to_string())?)?;
+            moves?;
             make::<M>(&arguments, Interface::CoSimulation)
         })
     }
@@ -157,6 +164,7 @@ pub unsafe fn fmi3InstantiateScheduledExecution<M: Model>(
         log: logMessage,
         update: None,
         early_return_allowed: false,
+        moves_inputs: false,
     };
     // SAFETY: the master passes NULL or a C string, and callbacks of the standard.
     unsafe {
