@@ -41,7 +41,7 @@ fn written<M: Model>(model: &M) -> io::Result<String> {
         ("fmiVersion", "2.0".to_string()),
         ("modelName", about.identifier.to_string()),
         ("guid", guid_of(model.identity())),
-        ("description", about.description.to_string()),
+        ("description", model.description()),
         ("author", about.author.to_string()),
         ("version", about.version.to_string()),
         ("license", about.license.to_string()),
@@ -55,7 +55,7 @@ fn written<M: Model>(model: &M) -> io::Result<String> {
         if !units.is_empty() {
             xml.parent("UnitDefinitions", &[], |xml| unit_definitions(xml, &units))?;
         }
-        let types = types::<M>();
+        let types = types(model);
         if !types.is_empty() {
             xml.parent("TypeDefinitions", &[], |xml| type_definitions(xml, &types))?;
         }
@@ -148,7 +148,7 @@ fn unit_definitions(xml: &mut Xml, units: &[Unit]) -> io::Result<()> {
 }
 
 /// The types of the table by name, in order of appearance.
-fn types<M: Model>() -> Vec<(&'static str, Kind)> {
+fn types<M: Model>(model: &M) -> Vec<(&'static str, Kind)> {
     let mut types: Vec<(&str, Kind)> = Vec::new();
     for variable in M::VARIABLES {
         let name = match variable.kind {
@@ -157,7 +157,7 @@ fn types<M: Model>() -> Vec<(&'static str, Kind)> {
             Kind::Boolean => None,
         };
         if let Some(name) = name.filter(|name| types.iter().all(|(known, _)| known != name)) {
-            types.push((name, variable.kind));
+            types.push((name, variable.kind_in(model)));
         }
     }
     types

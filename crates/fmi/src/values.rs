@@ -165,7 +165,7 @@ impl<M: Model> Instance<M> {
                 Role::Parameter { .. } if !before => {
                     return Err(Failure::TooLate { variable: variable.name, value: value(i) });
                 }
-                _ => variable.check(value(i))?,
+                _ => variable.check(&self.model, value(i))?,
             }
         }
         for (i, &reference) in references.iter().enumerate() {

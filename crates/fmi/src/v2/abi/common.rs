@@ -4,6 +4,7 @@ use super::entry::{Component, deliver, enter, input, string};
 use crate::guard::guarded;
 use crate::instance::{Instance, Interface};
 use crate::instantiate::Request;
+use crate::location;
 use crate::log::Message;
 use crate::model::Model;
 use crate::v2::calls;
@@ -25,6 +26,7 @@ fn instantiate<M: Model>(
     name: Result<String, String>,
     kind: sys::Type,
     given: Result<String, String>,
+    location: Option<&str>,
     logging_on: bool,
 ) -> Result<Instance<M>, String> {
     let [name, token] = [name?, given?];
@@ -38,7 +40,7 @@ fn instantiate<M: Model>(
         interface,
         token_argument: "fmuGUID",
         token: &token,
-        resources: None,
+        resources: location.and_then(location::folder),
         logging_on,
     };
     Instance::instantiate(request).map_err(|problem| problem.to_string())
@@ -48,7 +50,7 @@ pub unsafe fn fmi2Instantiate<M: Model>(
     instanceName: FmiString,
     fmuType: sys::Type,
     fmuGUID: FmiString,
-    _fmuResourceLocation: FmiString,
+    fmuResourceLocation: FmiString,
     functions: *const sys::CallbackFunctions,
     _visible: sys::Boolean,
     loggingOn: sys::Boolean,
@@ -65,7 +67,9 @@ pub unsafe fn fmi2Instantiate<M: Model>(
                 unsafe { (string("instanceName", instanceName), string("fmuGUID", fmuGUID)) };
             let [name, given] =
                 [name, given].map(|text| text.map_err(|failure| failure.to_string()));
-            instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
+            // SAFETY: as above; NULL names no folder.
+            let location = unsafe { string("fmuResourceLocation", fmuResourceLocation) }.ok();
+            instantiate::<M>(name, fmuType, given, location.as_deref(), loggingOn != sys::FALSE)
         },
         |panic| Err(format!("internal error: {panic}")),
     );
