@@ -77,7 +77,7 @@ fn unit_definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
 }
 
 /// The types of the table by name, in order of appearance.
-fn types<M: Model>() -> Vec<(&'static str, Kind)> {
+fn types<M: Model>(model: &M) -> Vec<(&'static str, Kind)> {
     let mut types: Vec<(&str, Kind)> = Vec::new();
     for variable in M::VARIABLES {
         let name = match variable.kind {
@@ -86,7 +86,7 @@ fn types<M: Model>() -> Vec<(&'static str, Kind)> {
             Kind::Integer | Kind::Boolean => None,
         };
         if let Some(name) = name.filter(|name| types.iter().all(|(known, _)| known != name)) {
-            types.push((name, variable.kind));
+            types.push((name, variable.kind_in(model)));
         }
     }
     types

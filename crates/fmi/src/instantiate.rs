@@ -44,12 +44,14 @@ pub enum NotInstantiated {
         own: String,
     },
     /// The token is not that of the built-in data, and the resources cannot be read.
-    #[error("{argument} is {given}, not that of the built-in data, and {problem}")]
+    #[error("{argument} is {given}, not that of the built-in data, {own}, and {problem}")]
     Resources {
         /// Name of the argument.
         argument: &'static str,
         /// The token.
         given: String,
+        /// The token of the built-in data.
+        own: String,
         /// Which file and key, the limit, and what to do.
         problem: String,
     },
@@ -78,7 +80,7 @@ impl<M: Model> Instance<M> {
             return Err(NotInstantiated::Token { argument, given, own });
         };
         let model = from_resources(read, request.resources.as_deref(), token)
-            .map_err(|problem| NotInstantiated::Resources { argument, given, problem })?;
+            .map_err(|problem| NotInstantiated::Resources { argument, given, own, problem })?;
         Ok(Self::of(model, interface, request.logging_on)?)
     }
 }

@@ -31,6 +31,9 @@ impl Unit {
     }
 }
 
+/// Items of an enumeration: name, number, description.
+pub type Items = &'static [(&'static str, i32, &'static str)];
+
 /// What values a variable takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
@@ -40,8 +43,8 @@ pub enum Kind {
     Integer,
     /// True or false.
     Boolean,
-    /// One of a list of named numbers: name of the type, then (name, number, description).
-    Enumeration(&'static str, &'static [(&'static str, i32, &'static str)]),
+    /// One of a list of named numbers: name of the type, then its items.
+    Enumeration(&'static str, Items),
 }
 
 /// On which states and inputs a variable depends, and how. A bit for every state by number, then one

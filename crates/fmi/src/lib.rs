@@ -106,7 +106,8 @@
 //! | [`model`] | the traits that a model implements |
 //! | [`Variable`], [`table`] | one variable; the one table of them: value reference = row |
 //! | [`identity`] | GUID and key of saved states |
-//! | [`instantiate`], [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
+//! | [`instantiate`], [`location`] | whether token, data and binary fit; the folder of a package's resources |
+//! | [`instance`], `steps`, `clock` | one instance: set-up, steps, status; when two instants are the same |
 //! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
 //! | [`state`] | the FMU state and its bytes |
 //! | [`failure`], [`log`] | what a call is refused for; messages for the master's logger |
@@ -134,6 +135,7 @@ pub mod identity;
 pub mod instance;
 pub mod instantiate;
 mod kinds;
+pub mod location;
 pub mod log;
 pub mod model;
 #[cfg(feature = "package")]
@@ -153,7 +155,7 @@ pub mod v3;
 pub mod values;
 mod variable;
 
-pub use kinds::{Dependencies, Kind, Unit};
+pub use kinds::{Dependencies, Items, Kind, Unit};
 pub use model::{
     About, Exchange, FromResources, InputDerivatives, InternalStep, Model, ModelError, Remedy,
     Saving, Simulation, Tangent,

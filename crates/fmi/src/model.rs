@@ -106,6 +106,11 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
         Self::IDENTITY
     }
 
+    /// `description`: that of [`Model::ABOUT`], unless the data say more.
+    fn description(&self) -> String {
+        Self::ABOUT.description.to_string()
+    }
+
     /// Starts a simulation at a time (s), with all inputs zero.
     ///
     /// # Errors

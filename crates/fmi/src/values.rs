@@ -223,7 +223,7 @@ impl<M: Model> Instance<M> {
                 _ if !variable.settable() => {
                     return Err(Failure::NotSettable { variable: variable.name, value: value(i) });
                 }
-                _ => variable.check(value(i))?,
+                _ => variable.check(&self.model, value(i))?,
             }
         }
         for (i, &reference) in references.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! One variable: what it is to a master, and where its value is.
 
-use crate::kinds::{Dependencies, Kind, Unit};
+use crate::kinds::{Dependencies, Items, Kind, Unit};
 use crate::model::{Model, Simulation};
 use crate::short::short;
 
@@ -56,6 +56,8 @@ pub struct Variable<M: Model> {
     pub nominal: Option<f64>,
     /// Dependencies of outputs and derivatives.
     pub dependencies: Dependencies,
+    /// The items of an enumeration that a model has, if its data leave some out.
+    pub items: Option<fn(&M) -> Items>,
 }
 
 impl<M: Model> Clone for Variable<M> {
@@ -74,7 +76,8 @@ impl<M: Model> Variable<M> {
         dependencies: Dependencies,
     ) -> Self {
         let kind = Kind::Real(unit);
-        Self { name, description, kind, role, range: None, nominal: None, dependencies }
+        let (range, nominal, items) = (None, None, None);
+        Self { name, description, kind, role, range, nominal, dependencies, items }
     }
 
     /// The input of this number; it starts at zero.
@@ -170,6 +173,19 @@ impl<M: Model> Variable<M> {
         Self { nominal: Some(nominal), ..self }
     }
 
+    /// The enumeration with the items that the data of a model leave it.
+    pub const fn with_items(self, items: fn(&M) -> Items) -> Self {
+        Self { items: Some(items), ..self }
+    }
+
+    /// The values that it takes in a model.
+    pub fn kind_in(&self, model: &M) -> Kind {
+        match (self.kind, self.items) {
+            (Kind::Enumeration(name, _), Some(items)) => Kind::Enumeration(name, items(model)),
+            (kind, _) => kind,
+        }
+    }
+
     /// Whether a master can set it at all.
     pub const fn settable(&self) -> bool {
         matches!(self.role, Role::Input(_) | Role::Parameter { .. })
@@ -201,12 +217,12 @@ impl<M: Model> Variable<M> {
         })
     }
 
-    /// Whether a value would be taken.
+    /// Whether a model would take a value.
     ///
     /// # Errors
     /// [`Refused`] if the variable is no input or parameter, or if the value is not finite, out of
     /// range, or names no item.
-    pub fn check(&self, value: f64) -> Result<(), Refused> {
+    pub fn check(&self, model: &M, value: f64) -> Result<(), Refused> {
         let refuse = |expected: String| Err(Refused { variable: self.name, value, expected });
         if !self.settable() {
             return refuse(
@@ -222,7 +238,7 @@ impl<M: Model> Variable<M> {
         {
             return refuse(format!("the range is [{}, {}]", short(min), short(max)));
         }
-        match self.kind {
+        match self.kind_in(model) {
             Kind::Enumeration(_, items)
                 if !items.iter().any(|&(_, number, _)| f64::from(number) == value) =>
             {
@@ -246,7 +262,7 @@ impl<M: Model> Variable<M> {
     /// Those of [`Variable::check`], and [`Refused`] of an input, which belongs to the simulation; the
     /// model is then as it was.
     pub fn set(&self, model: &mut M, value: f64) -> Result<(), Refused> {
-        self.check(value)?;
+        self.check(model, value)?;
         let Role::Parameter { set, .. } = self.role else {
             let expected = "it is no parameter".into();
             return Err(Refused { variable: self.name, value, expected });

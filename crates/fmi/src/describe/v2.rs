@@ -21,7 +21,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
         ("fmiVersion", "2.0".to_string()),
         ("modelName", about.identifier.to_string()),
         ("guid", guid_of(model.identity())),
-        ("description", about.description.to_string()),
+        ("description", model.description()),
         ("author", about.author.to_string()),
         ("version", about.version.to_string()),
         ("license", about.license.to_string()),
@@ -32,7 +32,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
     xml.parent("fmiModelDescription", &root, |xml| {
         interfaces::<M>(xml)?;
         unit_definitions(xml, &units::<M>(&[]))?;
-        type_definitions(xml, &types::<M>())?;
+        type_definitions(xml, &types(model))?;
         categories_and_experiment::<M>(xml)?;
         xml.parent("ModelVariables", &[], |xml| {
             M::VARIABLES.iter().enumerate().try_for_each(|(row, variable)| {

@@ -4,6 +4,7 @@ use super::entry::enter;
 use crate::abi::{self, input, string};
 use crate::instance::{Instance, Interface};
 use crate::instantiate::Request;
+use crate::location;
 use crate::model::Model;
 use crate::v2::calls;
 use crate::v2::sys::{self, FmiString, Real, Status};
@@ -23,6 +24,7 @@ fn instantiate<M: Model>(
     name: Result<String, String>,
     kind: sys::Type,
     given: Result<String, String>,
+    location: Option<&str>,
     logging_on: bool,
 ) -> Result<Instance<M>, String> {
     let [name, token] = [name?, given?];
@@ -36,7 +38,7 @@ fn instantiate<M: Model>(
         interface,
         token_argument: "fmuGUID",
         token: &token,
-        resources: None,
+        resources: location.and_then(location::folder),
         logging_on,
     };
     Instance::instantiate(request).map_err(|problem| problem.to_string())
@@ -46,7 +48,7 @@ pub unsafe fn fmi2Instantiate<M: Model>(
     instanceName: FmiString,
     fmuType: sys::Type,
     fmuGUID: FmiString,
-    _fmuResourceLocation: FmiString,
+    fmuResourceLocation: FmiString,
     functions: *const sys::CallbackFunctions,
     _visible: sys::Boolean,
     loggingOn: sys::Boolean,
@@ -60,7 +62,9 @@ pub unsafe fn fmi2Instantiate<M: Model>(
         // SAFETY: the master passes NULL or C strings.
         let texts = unsafe { [string("instanceName", instanceName), string("fmuGUID", fmuGUID)] };
         let [name, given] = texts.map(|text| text.map_err(|failure| failure.to_string()));
-        instantiate::<M>(name, fmuType, given, loggingOn != sys::FALSE)
+        // SAFETY: as above; NULL names no folder.
+        let location = unsafe { string("fmuResourceLocation", fmuResourceLocation) }.ok();
+        instantiate::<M>(name, fmuType, given, location.as_deref(), loggingOn != sys::FALSE)
     };
     // SAFETY: the master passes NULL or a C string, and callbacks of the standard.
     unsafe { abi::create("fmi2Instantiate", instanceName, callbacks, make) }
