@@ -105,7 +105,15 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::get_real`].
     pub fn strings(&self, references: &[u32]) -> Outcome {
-        references.iter().try_for_each(|&reference| variable::<M>(reference, &STRING).map(drop))
+        Self::check_type(&STRING, references)
+    }
+
+    /// Whether all variables are of a type.
+    ///
+    /// # Errors
+    /// [`Failure::UnknownReference`], [`Failure::WrongType`].
+    pub fn check_type(asked: &Type, references: &[u32]) -> Outcome {
+        references.iter().try_for_each(|&reference| variable::<M>(reference, asked).map(drop))
     }
 
     /// Reads variables of a type; `write` gets the position in the array and the value.
@@ -173,7 +181,7 @@ impl<M: Model> Instance<M> {
     /// [`Failure::UnknownReference`], [`Failure::WrongType`], [`Failure::TooLate`],
     /// [`Failure::State`], [`Failure::NotSettable`], [`Failure::Refused`]. No value is set then.
     pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Outcome {
-        self.set(&REAL, references, |i| values[i])
+        self.set(&REAL, references, &|i| values[i])
     }
 
     /// `fmi2SetInteger`, also for enumerations.
@@ -181,7 +189,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::set_real`].
     pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Outcome {
-        self.set(&INTEGER, references, |i| values[i].into())
+        self.set(&INTEGER, references, &|i| values[i].into())
     }
 
     /// `fmi2SetBoolean`.
@@ -189,7 +197,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// Those of [`Instance::set_real`].
     pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Outcome {
-        self.set(&BOOLEAN, references, |i| values[i].into())
+        self.set(&BOOLEAN, references, &|i| values[i].into())
     }
 
     /// Sets variables of a type.
@@ -204,7 +212,7 @@ impl<M: Model> Instance<M> {
         &mut self,
         asked: &Type,
         references: &[u32],
-        value: impl Fn(usize) -> f64,
+        value: &dyn Fn(usize) -> f64,
     ) -> Outcome {
         let before = self.before_start();
         let exchange = Self::exchange().ok().filter(|_| self.exchanging());

@@ -79,6 +79,25 @@ pub(crate) unsafe fn enter<M: Model, C: Callbacks>(
     call: &Call,
     body: impl FnOnce(&mut Instance<M>) -> Outcome,
 ) -> Status {
+    let mut body = Some(body);
+    // SAFETY: by this function's contract.
+    unsafe {
+        enter_any::<M, C>(handle, call, &mut |instance| match body.take() {
+            Some(body) => body(instance),
+            None => Ok(()),
+        })
+    }
+}
+
+/// [`enter`], compiled once for all calls: a library has 120 of them.
+///
+/// # Safety
+/// That of [`enter`].
+unsafe fn enter_any<M: Model, C: Callbacks>(
+    handle: *mut c_void,
+    call: &Call,
+    body: &mut dyn FnMut(&mut Instance<M>) -> Outcome,
+) -> Status {
     let handle = handle.cast::<Handle<M, C>>();
     if handle.is_null() {
         return Status::Error;

@@ -51,7 +51,7 @@ macro_rules! values {
                         (references, input("values", values, nValues)?)
                     };
                     let read: fn(sys::$type) -> f64 = $read;
-                    instance.set(&types::$kind, references, |i| read(values[i]))
+                    instance.set(&types::$kind, references, &|i| read(values[i]))
                 };
                 // SAFETY: the master passes one of its instances.
                 unsafe { enter(instance, &calls::$set_call, body) }
@@ -79,11 +79,11 @@ macro_rules! no_values {
                 $($argument: $type),*
             ) -> Status {
                 $(let _ = $argument;)*
-                let body = |instance: &mut Of<M>| {
+                let body = |_: &mut Of<M>| {
                     // SAFETY: the master passes an array of the length it states.
                     let references =
                         unsafe { input("valueReferences", valueReferences, nValueReferences) }?;
-                    instance.get(&types::$kind, references, |_, _| ())
+                    Of::<M>::check_type(&types::$kind, references)
                 };
                 // SAFETY: the master passes one of its instances.
                 unsafe { enter(instance, &calls::$call, body) }
