@@ -1,7 +1,8 @@
 //! Command line of `cargo ahv`.
 
 use crate::own_vehicle::OwnVehicle;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use fmi_model::standard::Standard;
 use std::ffi::OsString;
 use std::path::PathBuf;
 
@@ -45,19 +46,43 @@ pub struct Research {
     pub arguments: Vec<OsString>,
 }
 
-/// Write modelDescription/modelDescription.xml from the table of variables
+/// Write the model descriptions from the table of variables
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv describe            write the file
-  cargo ahv describe --check    fail if the committed file is out of date")]
+  cargo ahv describe            write modelDescription/modelDescription.xml for FMI 2.0 and
+                                modelDescription/fmi3/modelDescription.xml for FMI 3.0
+  cargo ahv describe --check    fail if a committed file is out of date")]
 pub struct Describe {
-    /// Compare with the file instead of writing it; fail if they differ
+    /// Compare with the files instead of writing them; fail if they differ
     #[arg(long)]
     pub check: bool,
-    /// File to write or compare [default: modelDescription/modelDescription.xml]
-    #[arg(long, value_name = "FILE")]
+    /// File to write or compare, of one version of the standard
+    #[arg(long, value_name = "FILE", requires = "fmi")]
     pub file: Option<PathBuf>,
+    /// Version of the standard [default: both]
+    #[arg(long, value_name = "VERSION")]
+    pub fmi: Option<Fmi>,
+}
+
+/// A version of the standard, as the user names it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Fmi {
+    /// FMI 2.0
+    #[value(name = "2")]
+    Two,
+    /// FMI 3.0
+    #[value(name = "3")]
+    Three,
+}
+
+impl From<Fmi> for Standard {
+    fn from(version: Fmi) -> Self {
+        match version {
+            Fmi::Two => Self::Fmi2,
+            Fmi::Three => Self::Fmi3,
+        }
+    }
 }
 
 /// Build the libraries and write the FMU
@@ -125,6 +150,9 @@ pub struct Fly {
     /// Fly this FMU instead of building one
     #[arg(long, value_name = "FILE.fmu", conflicts_with_all = ["vehicle", "coefficients"])]
     pub fmu: Option<PathBuf>,
+    /// Fly the FMU of this version of the standard [default: 2]
+    #[arg(long, value_name = "VERSION", conflicts_with = "fmu")]
+    pub fmi: Option<Fmi>,
     /// Build for this machine and its C library only, which is faster; flies target/ahv-host.fmu
     #[arg(long, conflicts_with = "fmu")]
     pub host_only: bool,

@@ -1,4 +1,4 @@
-//! `cargo ahv describe`: writes modelDescription.xml from the table of variables.
+//! `cargo ahv describe`: writes the model descriptions from the table of variables.
 
 use crate::cli::Describe;
 use crate::workspace::{MAX_TEXT_BYTES, read_text, root, shown, write};
@@ -7,19 +7,37 @@ use anyhow::{Result, bail};
 use fmi_model::Model;
 use fmi_model::describe::model_description;
 use fmi_model::standard::Standard;
+use std::path::{Path, PathBuf};
 
 /// Name of the library in the FMU.
 pub const MODEL_IDENTIFIER: &str = Setup::ABOUT.identifier;
 
 pub fn run(options: &Describe) -> Result<()> {
-    let default = root().join("modelDescription/modelDescription.xml");
-    let file = options.file.as_ref().unwrap_or(&default);
-    let expected = xml()?;
-    if !options.check {
-        write(file, expected)?;
-        outln!("{}: {} variables", shown(file), Setup::VARIABLES.len())?;
-        return Ok(());
-    }
+    let versions = match options.fmi {
+        Some(version) => vec![version.into()],
+        None => Standard::ALL.to_vec(),
+    };
+    versions.into_iter().try_for_each(|standard| {
+        let file = options.file.clone().unwrap_or_else(|| committed(standard));
+        if options.check { compare(&file, standard) } else { write_to(&file, standard) }
+    })
+}
+
+/// The committed file.
+fn committed(standard: Standard) -> PathBuf {
+    root().join(match standard {
+        Standard::Fmi2 => "modelDescription/modelDescription.xml",
+        Standard::Fmi3 => "modelDescription/fmi3/modelDescription.xml",
+    })
+}
+
+fn write_to(file: &Path, standard: Standard) -> Result<()> {
+    write(file, xml(standard)?)?;
+    outln!("{}: {} variables", shown(file), Setup::VARIABLES.len())
+}
+
+fn compare(file: &Path, standard: Standard) -> Result<()> {
+    let expected = xml(standard)?;
     let found = read_text(file, MAX_TEXT_BYTES)?;
     if found != expected {
         let line = found.lines().zip(expected.lines()).take_while(|(a, b)| a == b).count();
@@ -32,13 +50,12 @@ pub fn run(options: &Describe) -> Result<()> {
             expected.lines().nth(line).unwrap_or("(end of file)").trim(),
         );
     }
-    outln!("{} is up to date", shown(file))?;
-    Ok(())
+    outln!("{} is up to date", shown(file))
 }
 
-/// The text of the file. It has no date, path or host name: the same sources give the same bytes.
-pub fn xml() -> Result<String> {
-    Ok(model_description::<Setup>(Standard::Fmi2)?)
+/// The text of a file. It has no date, path or host name: the same sources give the same bytes.
+pub fn xml(standard: Standard) -> Result<String> {
+    Ok(model_description::<Setup>(standard)?)
 }
 
 #[cfg(test)]

@@ -25,6 +25,10 @@ pub fn run(options: &Fly) -> Result<()> {
         None if options.host_only => package::build_default(Targets::Host)?,
         None => package::build_default(Targets::AsExisting)?,
     };
+    let file = match options.fmi {
+        Some(version) if options.fmu.is_none() => package::of(version.into(), &file),
+        _ => file,
+    };
     let fmu = Fmu::open(&file)?;
     let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
     can_write(&directory.join("flight.csv"))?;

@@ -4,7 +4,6 @@ use crate::model_description::ModelDescription;
 use crate::package::{Binary, host};
 use crate::workspace::{MAX_BINARY_BYTES, read, shown, write};
 use anyhow::{Context, Result, bail};
-use fmi_model::standard::Standard;
 use std::io::{Cursor, Read};
 use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
@@ -42,9 +41,6 @@ impl Fmu {
             bail!("{name}: modelDescription.xml is not UTF-8 text");
         };
         let model = ModelDescription::parse(&xml).with_context(|| name.clone())?;
-        if model.fmi_version != "2.0" {
-            bail!("{name} is for FMI {}; FMI 2.0 is needed", model.fmi_version);
-        }
         let Some(co_simulation) = &model.co_simulation else {
             bail!("{name} does not support co-simulation, which is needed");
         };
@@ -53,7 +49,7 @@ impl Fmu {
             bail!("{name}: the modelIdentifier {identifier:?} is not a C identifier");
         }
         let host = host()?;
-        let binary = host.binary(Standard::Fmi2, identifier);
+        let binary = host.binary(model.standard, identifier);
         let path = directory.path().join(&binary);
         if !path.exists() {
             bail!("{name} has no binary for this machine: {binary} is missing");
@@ -65,9 +61,9 @@ impl Fmu {
         Ok(Self { directory, binary: path, model })
     }
 
-    /// URI of the resources directory, which fmi2Instantiate requires.
-    pub fn resources(&self) -> String {
-        format!("file://{}", self.directory.path().join("resources").display())
+    /// The resources directory.
+    pub fn resources(&self) -> PathBuf {
+        self.directory.path().join("resources")
     }
 }
 

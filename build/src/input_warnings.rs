@@ -50,7 +50,10 @@ mod tests {
 
     #[test]
     fn a_suspicious_file_gives_one_warning() {
-        let model = ModelDescription::parse(&crate::describe::xml().unwrap()).unwrap();
+        let model = ModelDescription::parse(
+            &crate::describe::xml(fmi_model::standard::Standard::Fmi2).unwrap(),
+        )
+        .unwrap();
         for (text, expected) in [
             ("time,phi\n0,0\n1,1\n", ""),
             ("time,phi\n1,0\n2,1\n", ""),

@@ -1,26 +1,25 @@
-//! Reads modelDescription.xml.
+//! Reads modelDescription.xml of either version of the standard.
 
-use anyhow::{Result, anyhow};
+mod fmi2;
+mod fmi3;
+
+use anyhow::{Context, Result, anyhow, bail};
+use fmi_model::standard::Standard;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
-#[derive(Debug, Deserialize)]
+/// What the tool needs to know of a model.
+#[derive(Debug)]
 pub struct ModelDescription {
-    #[serde(rename = "@fmiVersion")]
-    pub fmi_version: String,
-    #[serde(rename = "@modelName")]
+    pub standard: Standard,
     pub model_name: String,
-    #[serde(rename = "@guid")]
-    pub guid: String,
-    #[serde(rename = "CoSimulation")]
+    /// `guid` or `instantiationToken`.
+    pub token: String,
     pub co_simulation: Option<CoSimulation>,
-    #[serde(rename = "UnitDefinitions", default)]
     units: Units,
-    #[serde(rename = "TypeDefinitions", default)]
-    types: Types,
-    #[serde(rename = "DefaultExperiment", default)]
+    types: Vec<EnumerationType>,
     pub experiment: Experiment,
-    #[serde(rename = "ModelVariables")]
-    variables: Variables,
+    variables: Vec<Variable>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -66,23 +65,10 @@ fn one() -> f64 {
     1.0
 }
 
-#[derive(Debug, Default, Deserialize)]
-struct Types {
-    #[serde(rename = "SimpleType", default)]
-    list: Vec<SimpleType>,
-}
-
-#[derive(Debug, Deserialize)]
-struct SimpleType {
-    #[serde(rename = "@name")]
-    name: String,
-    #[serde(rename = "Enumeration")]
-    enumeration: Option<EnumerationType>,
-}
-
-#[derive(Debug, Deserialize)]
+/// A type of enumerations.
+#[derive(Debug)]
 struct EnumerationType {
-    #[serde(rename = "Item", default)]
+    name: String,
     items: Vec<Item>,
 }
 
@@ -95,21 +81,14 @@ pub struct Item {
     pub value: i32,
 }
 
-#[derive(Debug, Deserialize)]
-struct Variables {
-    #[serde(rename = "ScalarVariable", default)]
-    list: Vec<Variable>,
-}
-
-#[derive(Debug, Deserialize)]
+/// A variable.
+#[derive(Debug)]
 pub struct Variable {
-    #[serde(rename = "@name")]
     pub name: String,
-    #[serde(rename = "@valueReference")]
     pub value_reference: u32,
-    #[serde(rename = "@causality", default)]
     pub causality: Causality,
-    #[serde(rename = "$value")]
+    /// Whether the master may set or read it within a step: `intermediateUpdate`.
+    pub moves_within_a_step: bool,
     pub kind: Kind,
 }
 
@@ -118,6 +97,7 @@ pub struct Variable {
 pub enum Causality {
     Parameter,
     CalculatedParameter,
+    StructuralParameter,
     Input,
     Output,
     #[default]
@@ -125,13 +105,15 @@ pub enum Causality {
     Independent,
 }
 
-#[derive(Debug, Deserialize)]
+/// What values a variable takes.
+#[derive(Debug)]
 pub enum Kind {
     Real(Real),
     Integer,
     Boolean,
     Enumeration(Enumeration),
-    String,
+    /// What the tool neither sets nor reads.
+    Other,
 }
 
 #[derive(Debug, Deserialize)]
@@ -154,17 +136,33 @@ pub struct Enumeration {
     start: Option<i32>,
 }
 
+/// Reads XML into a type.
+fn read<T: DeserializeOwned>(xml: &str) -> Result<T> {
+    quick_xml::de::from_str(xml).map_err(|error| {
+        // The error may quote the whole file.
+        let reason: String = error.to_string().chars().take(200).collect();
+        anyhow!("modelDescription.xml cannot be read: {reason}")
+    })
+}
+
+#[derive(Debug, Deserialize)]
+struct Root {
+    #[serde(rename = "@fmiVersion")]
+    fmi_version: String,
+}
+
 impl ModelDescription {
     pub fn parse(xml: &str) -> Result<Self> {
-        quick_xml::de::from_str(xml).map_err(|error| {
-            // The error may quote the whole file.
-            let reason: String = error.to_string().chars().take(200).collect();
-            anyhow!("modelDescription.xml cannot be read: {reason}")
-        })
+        let Root { fmi_version } = read(xml)?;
+        match fmi_version.split_once('.').context("fmiVersion is no version")? {
+            ("2", _) => fmi2::parse(xml),
+            ("3", _) => fmi3::parse(xml),
+            _ => bail!("the FMU is for FMI {fmi_version}; FMI 2.0 or 3.0 is needed"),
+        }
     }
 
     pub fn variables(&self) -> &[Variable] {
-        &self.variables.list
+        &self.variables
     }
 
     pub fn with(&self, causality: Causality) -> impl Iterator<Item = &Variable> {
@@ -181,12 +179,8 @@ impl ModelDescription {
         else {
             return &[];
         };
-        self.types
-            .list
-            .iter()
-            .find(|known| known.name == *name)
-            .and_then(|known| known.enumeration.as_ref())
-            .map_or(&[], |enumeration| &enumeration.items)
+        let known = self.types.iter().find(|known| known.name == *name);
+        known.map_or(&[], |known| &known.items)
     }
 
     /// The display unit of a real variable, or its unit without one.

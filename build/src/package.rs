@@ -1,4 +1,4 @@
-//! `cargo ahv package`: builds the libraries and assembles the FMU.
+//! `cargo ahv package`: builds the libraries and assembles the FMUs, one for each standard.
 
 mod binary;
 mod cross_check;
@@ -90,14 +90,23 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
     package(libraries, output)
 }
 
-/// Writes an FMU; prints its platforms and their dependencies.
+/// Writes the FMUs; prints their platforms and dependencies.
 fn package(libraries: Libraries, output: &Path) -> Result<()> {
-    let mut files = contents(&libraries.found)?;
     let host = host()?;
-    if libraries.found.iter().any(|library| library.platform == host) {
-        files.extend(reference(&files, libraries.prebuilt)?);
+    let flies = libraries.found.iter().any(|library| library.platform == host);
+    let mut flown = None;
+    for standard in Standard::ALL {
+        let mut files = contents(&libraries.found, standard)?;
+        if flies {
+            let found = match flown.take() {
+                Some(found) => found,
+                None => reference(&files, libraries.prebuilt)?,
+            };
+            files.extend(found.clone());
+            flown = Some(found);
+        }
+        write_fmu(files, &of(standard, output))?;
     }
-    write_fmu(files, output)?;
     for Library { platform, binary, .. } in &libraries.found {
         let needed: Vec<_> = binary.needed.iter().map(String::as_str).collect();
         let glibc = binary.glibc.map(|(major, minor)| format!("glibc {major}.{minor}: "));
@@ -207,18 +216,29 @@ impl Libraries {
     }
 }
 
+/// Where the FMU of a standard is written if that of FMI 2.0 is written to `output`.
+pub fn of(standard: Standard, output: &Path) -> PathBuf {
+    let stem = output.file_stem().unwrap_or_default().to_string_lossy();
+    match standard {
+        Standard::Fmi2 => output.to_path_buf(),
+        Standard::Fmi3 => output.with_file_name(standard.file_name(&stem)),
+    }
+}
+
 /// Files of the FMU, by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
-fn contents(libraries: &[Library]) -> Result<Files> {
+fn contents(libraries: &[Library], standard: Standard) -> Result<Files> {
     let mut files = Files::new();
-    files.insert("modelDescription.xml".to_string(), describe::xml()?.into_bytes());
+    files.insert("modelDescription.xml".to_string(), describe::xml(standard)?.into_bytes());
     files.extend(licenses::collect()?);
     files.extend(terminals::files()?);
-    files.insert("model.png".to_string(), icon("vehicle")?);
+    if standard == Standard::Fmi2 {
+        files.insert("model.png".to_string(), icon("vehicle")?);
+    }
     let mut machines = Vec::new();
     for Library { platform, content, binary } in libraries {
-        let name = platform.binary(Standard::Fmi2, MODEL_IDENTIFIER);
+        let name = platform.binary(standard, MODEL_IDENTIFIER);
         machines.push(platform::machines(*platform, binary.glibc));
         files.insert(name, content.clone());
     }

@@ -74,7 +74,7 @@ fn number(model: &ModelDescription, variable: &Variable, text: &str) -> Result<f
                 None => Err(format!("choose one of {}", names.join(", "))),
             }
         }
-        Kind::String => Err("text cannot be set".into()),
+        Kind::Other => Err("text cannot be set".into()),
     }
 }
 

@@ -51,7 +51,7 @@ const STEPS: [Step; 17] = [
                 .env_remove(abi_stress::SEQUENCES_VARIABLE),
         )
     }),
-    ("description", Always, |_| describe::run(&Describe { check: true, file: None })),
+    ("description", Always, |_| describe::run(&Describe { check: true, file: None, fmi: None })),
     ("package", Always, |options| {
         let targets = if options.all_targets { Targets::All } else { Targets::Possible };
         package::build(&package::default_output(Targets::Possible), targets)

@@ -8,12 +8,13 @@ use ahv::flight::{Flight, Setup};
 use ahv::fmu::Message;
 use ahv::vehicle::{H, eta};
 use anyhow::{Result, anyhow};
+use fmi_model::standard::Standard;
 use fmi_model::table::find;
 use serde_json::json;
 
 /// The model description, against which `--set` is checked as in `fly`.
 pub fn model() -> Result<ModelDescription> {
-    ModelDescription::parse(&describe::xml()?)
+    ModelDescription::parse(&describe::xml(Standard::Fmi2)?)
 }
 
 /// A flight with the parameters set on the command line.

@@ -33,6 +33,8 @@ pub struct Flight {
     pub(super) method: Box<Method>,
     pub(super) inputs: Inputs,
     pub(super) time: f64,
+    /// Of an interval that is flown step by step: its start and how far it was flown, s.
+    pub(super) legs: Option<[f64; 2]>,
     pub(super) integrator: Integrator,
     pub(super) state: State,
     /// Derivatives at the current state and controls, if known.
@@ -160,6 +162,10 @@ impl Flight {
     }
 
     fn run(&mut self, end: f64, once: bool) -> Result<(), Error> {
+        let [start, before] = match self.legs.take() {
+            Some([start, flown]) if once && start + flown == self.time => [start, flown],
+            _ => [self.time, 0.0],
+        };
         let Self { vehicle, base, method, state, inputs, .. } = self;
         let controlled = ControlledVehicle {
             vehicle,
@@ -167,9 +173,9 @@ impl Flight {
             inputs,
             held: (!inputs.moving()).then(|| in_effect(vehicle, base, &inputs.values)),
         };
-        let length = end - self.time;
-        // Counted from here, so that a late start costs no digits.
-        let interval = [0.0, length];
+        let length = end - start;
+        // Counted from the start, so that a late one costs no digits, and legs take the steps of the whole.
+        let interval = [before, length];
         // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
         let (integrator, slope) = (&mut self.integrator, &mut self.slope);
         let outcome = if controlled.is_autonomous() {
@@ -184,8 +190,11 @@ impl Flight {
             | Outcome::TooManySteps(flown)
             | Outcome::Paused(flown) => flown,
         };
-        let unfinished = inputs.moving() && matches!(outcome, Outcome::Paused(_));
-        *inputs = Inputs { ahead: unfinished, ..inputs.after(flown) };
+        let paused = matches!(outcome, Outcome::Paused(_));
+        let moving = inputs.moving();
+        *inputs = Inputs { ahead: moving && paused, ..inputs.after(flown - before) };
+        // Inputs that move are counted from the present instant.
+        self.legs = (paused && !moving).then_some([start, flown]);
         self.sample = None;
         match outcome {
             Outcome::Complete => {
@@ -193,19 +202,19 @@ impl Flight {
                 Ok(())
             }
             Outcome::Paused(flown) => {
-                self.time += flown;
+                self.time = start + flown;
                 Ok(())
             }
             Outcome::Invalid(flown) => {
-                self.time += flown;
+                self.time = start + flown;
                 Err(envelope_error(vehicle, base, state, inputs, self.time))
             }
             Outcome::StepTooSmall(flown) => {
-                self.time += flown;
+                self.time = start + flown;
                 Err(Error::StepSize { tolerance: self.integrator.tolerance, time_s: self.time })
             }
             Outcome::TooManySteps(flown) => {
-                self.time += flown;
+                self.time = start + flown;
                 Err(Error::TooLong { asked_s: length, trials: MAX_TRIALS, time_s: self.time })
             }
         }

@@ -88,6 +88,7 @@ impl Setup {
             trim: steady,
             inputs: Inputs::ZERO,
             time,
+            legs: None,
             integrator: Integrator::new(tolerance, FIRST_STEP),
             state,
             slope: None,

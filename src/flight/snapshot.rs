@@ -34,6 +34,7 @@ impl Flight {
         self.inputs = snapshot.inputs;
         self.state = snapshot.state;
         self.time = snapshot.time;
+        self.legs = None;
         self.integrator = snapshot.integrator;
         self.slope = None;
         self.sample = None;

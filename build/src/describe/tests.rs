@@ -29,7 +29,7 @@ fn attribute(element: &BytesStart, name: &str) -> Option<String> {
 
 #[test]
 fn elements_stand_in_the_order_of_the_schema() {
-    let xml = xml().unwrap();
+    let xml = xml(Standard::Fmi2).unwrap();
     let elements = elements(&xml);
     let at = |depth| elements.iter().filter(move |(found, _)| *found == depth);
     let names = at(1).map(|(_, element)| element.name().into_inner().to_string());
@@ -53,7 +53,7 @@ fn elements_stand_in_the_order_of_the_schema() {
 
 #[test]
 fn unknowns_ascend_and_have_one_kind_per_dependency() {
-    let xml = xml().unwrap();
+    let xml = xml(Standard::Fmi2).unwrap();
     for (_, element) in elements(&xml) {
         let Some(list) = attribute(&element, "dependencies") else { continue };
         let indices: Vec<usize> =
@@ -71,7 +71,7 @@ fn unknowns_ascend_and_have_one_kind_per_dependency() {
 
 #[test]
 fn start_values_lie_within_their_limits_and_every_enumeration_has_items() {
-    let model = ModelDescription::parse(&xml().unwrap()).unwrap();
+    let model = ModelDescription::parse(&xml(Standard::Fmi2).unwrap()).unwrap();
     let setup = Setup::new().unwrap();
     for (variable, row) in model.variables().iter().zip(Setup::VARIABLES) {
         let Some(start) = row.start(&setup) else { continue };
@@ -90,7 +90,7 @@ fn start_values_lie_within_their_limits_and_every_enumeration_has_items() {
 
 #[test]
 fn one_unit_per_name_with_degrees_for_rates() {
-    let xml = xml().unwrap();
+    let xml = xml(Standard::Fmi2).unwrap();
     let elements = elements(&xml);
     let named = |element: &str, name: &str| {
         let same = |found: &BytesStart| {

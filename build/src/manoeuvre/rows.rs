@@ -185,7 +185,8 @@ mod tests {
     use super::*;
 
     fn model() -> ModelDescription {
-        ModelDescription::parse(&crate::describe::xml().unwrap()).unwrap()
+        ModelDescription::parse(&crate::describe::xml(fmi_model::standard::Standard::Fmi2).unwrap())
+            .unwrap()
     }
 
     #[test]

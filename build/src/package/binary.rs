@@ -2,7 +2,7 @@
 
 use super::platform::Platform;
 use anyhow::{Context, Result, bail};
-use fmi_model::v2::sys::signatures;
+use fmi_model::export::exported;
 use object::elf::FileHeader64;
 use object::read::elf::{FileHeader, SectionHeader};
 use object::read::{File, NameOrOrdinal};
@@ -115,7 +115,7 @@ impl Binary {
         Ok(())
     }
 
-    /// Checks that the library is for the platform, exports exactly the functions of FMI 2.0, and depends only
+    /// Checks that the library is for the platform, exports exactly the functions of FMI 2.0 and 3.0, and depends only
     /// on libraries of the system.
     pub fn check(&self, platform: Platform) -> Result<()> {
         self.is_for(platform)?;
@@ -128,19 +128,21 @@ impl Binary {
         if !foreign.is_empty() {
             bail!("{} needs {}: not part of the system", platform.fmi2, foreign.join(", "));
         }
-        let standard: BTreeSet<_> =
-            signatures().into_iter().map(|(name, _)| name.to_string()).collect();
+        let standard: BTreeSet<_> = exported().map(str::to_string).collect();
         let lacking: Vec<_> = standard.difference(&self.exports).cloned().collect();
         if lacking.len() == standard.len() {
-            bail!("{} needs the functions of FMI 2.0: this library has none", platform.fmi2);
+            bail!(
+                "{} needs the functions of FMI 2.0 and 3.0: this library has none",
+                platform.fmi2
+            );
         }
         if !lacking.is_empty() {
-            bail!("{} lacks functions of FMI 2.0: {}", platform.fmi2, lacking.join(", "));
+            bail!("{} lacks functions of FMI 2.0 or 3.0: {}", platform.fmi2, lacking.join(", "));
         }
         let more: Vec<_> = self.exports.difference(&standard).cloned().collect();
         if !more.is_empty() {
             bail!(
-                "{} exports functions that are not in FMI 2.0: {}",
+                "{} exports functions that are not in FMI 2.0 or 3.0: {}",
                 platform.fmi2,
                 more.join(", ")
             );
@@ -211,7 +213,7 @@ mod tests {
             architecture: Architecture::X86_64,
             glibc: elf.then_some(glibc),
             needed: [needed.to_string()].into(),
-            exports: signatures().into_iter().map(|(name, _)| name.to_string()).collect(),
+            exports: exported().map(str::to_string).collect(),
         }
     }
 

@@ -1,5 +1,12 @@
 //! What makes a model a library.
 
+use crate::{v2, v3};
+
+/// Names of the functions that a library exports.
+pub fn exported() -> impl Iterator<Item = &'static str> {
+    v2::sys::signatures().into_iter().chain(v3::sys::signatures()).map(|(name, _)| name)
+}
+
 /// Exports the functions of FMI 2.0 and FMI 3.0 for a [`Model`](crate::Model): all that a `cdylib` needs.
 ///
 /// A table of variables that no master could use does not compile, see [`crate::table::check`].

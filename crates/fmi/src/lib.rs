@@ -128,7 +128,7 @@ pub mod derivatives;
 #[cfg(feature = "describe")]
 pub mod describe;
 pub mod exchange;
-mod export;
+pub mod export;
 pub mod failure;
 pub mod guard;
 pub mod identity;

@@ -49,7 +49,7 @@ pub fn under_sundials(program: &Path, effort: &Effort, exact: &State) -> Result<
     let repeats = (2 * effort.repeats).to_string();
     let output = Command::new(program)
         .arg(&fmu.binary)
-        .args([&fmu.model.guid, &fmu.resources(), &reference, &repeats])
+        .args([&fmu.model.token, &fmu.resources().display().to_string(), &reference, &repeats])
         .args(TOLERANCES)
         .output()?;
     lines(output)?
