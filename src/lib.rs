@@ -1,5 +1,5 @@
 //! Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and
-//! sloshing propellant, as a Rust library and as an FMI 2.0 FMU for co-simulation and model exchange.
+//! sloshing propellant, as a Rust library and as FMUs of FMI 2.0 and 3.0 for co-simulation and model exchange.
 //!
 //! The rooms, lowest first: each imports only from those before it in this table, and within a room
 //! no files import each other in a circle:
@@ -14,7 +14,7 @@
 //! | [`dynamics`] | x' = f(x, u), y = g(x, u); trim, poles, zeros | eq. (3), Tables 2-3 |
 //! | [`flight`] | parameters and inputs to outputs | |
 //! | [`variables`] | the one table of what a master sees | |
-//! | [`fmu`] | the flight as a model of [`fmi_model`] | FMI 2.0.5 |
+//! | [`fmu`] | the flight as a model of [`fmi_model`] | FMI 2.0.5, 3.0.2 |
 //!
 //! Beside them stand [`error`], [`short`] and [`errata`]: where the paper is wrong or silent, with
 //! derivations.

@@ -1,4 +1,4 @@
-//! Turns a Rust model into an FMU: a library that any simulation master loads through FMI 2.0, for
+//! Turns a Rust model into FMUs: a library that any simulation master loads through FMI 2.0 or FMI 3.0, for
 //! Co-Simulation and, if the model can be integrated from outside, for Model Exchange.
 //!
 //! A complete model, a first-order lag; in a `cdylib`, [`export!`] is all that follows:
@@ -111,8 +111,11 @@
 //! | [`values`], [`derivatives`], [`exchange`] | reading and setting; directional, input and output derivatives; Model Exchange |
 //! | [`state`] | the FMU state and its bytes |
 //! | [`failure`], [`log`] | what a call is refused for; messages for the master's logger |
+//! | [`phase`], [`status`], [`standard`] | states of an instance, calls and what they return, in both standards |
 //! | [`guard`] | legal order, panics and failures become a status and a message |
+//! | `abi` | C pointers, instances and messages, for either standard |
 //! | [`v2`] | FMI 2.0.5: C types, legal order of calls as data, exported functions |
+//! | [`v3`] | FMI 3.0.2: likewise |
 //!
 //! Steps are synchronous: `fmi2DoStep` never returns `fmi2Pending`, so there is nothing to cancel
 //! and the callback `stepFinished`, which reports the end of a pending step, is not called.
