@@ -1,5 +1,5 @@
 //! The functions of the standard, generic over the model: the only unsafe code.
-//! [`export!`](crate::export) makes them the symbols of a library.
+//! [`export!`](crate::export!) makes them the symbols of a library.
 //!
 //! Each function turns C arguments into Rust ones and makes one call through the guard. What a
 //! master has to grant is what the standard demands: an instance that `fmi2Instantiate` returned

@@ -1,4 +1,4 @@
-//! The functions of the standard, generic over the model. [`export!`](crate::export) makes them the symbols of a
+//! The functions of the standard, generic over the model. [`export!`](crate::export!) makes them the symbols of a
 //! library.
 //!
 //! Each function turns C arguments into Rust ones and makes one call through the guard. What a
