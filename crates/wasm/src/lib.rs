@@ -1,0 +1,55 @@
+//! The FMU as a WebAssembly component, by the draft of the layered standard FMI-LS-WASM: functions of
+//! FMI 3.0 for Co-Simulation and Model Exchange, their interface in `wit/`.
+//!
+//! | module | its job |
+//! |---|---|
+//! | [`bindings`] | the interface in Rust, generated |
+//! | [`calls`] | legal order of calls |
+//! | [`handle`] | one instance: calls through the guard, messages for the host |
+//! | [`lifecycle`], [`values`], [`derivatives`] | functions of both interfaces |
+//! | [`absent`] | functions for what no model has: clocks, other types |
+//! | [`co_simulation`], [`model_exchange`] | the two interfaces |
+//!
+//! WebAssembly cannot unwind here: a panic is a trap, which ends the host's instance of the component.
+
+#![deny(unsafe_code)]
+#![warn(clippy::disallowed_macros, clippy::disallowed_methods, clippy::disallowed_types)]
+
+pub mod absent;
+pub mod bindings;
+pub mod calls;
+pub mod co_simulation;
+pub mod derivatives;
+pub mod handle;
+pub mod lifecycle;
+pub mod model_exchange;
+mod shared;
+pub mod values;
+
+use ahv::flight::Setup;
+use bindings::exports::fmi::fmi3::{co_simulation as cs, common, model_exchange as me};
+use handle::Handle;
+
+/// The component.
+#[derive(Debug)]
+pub struct Component;
+
+impl common::Guest for Component {
+    fn get_version() -> String {
+        "3.0".to_string()
+    }
+}
+
+impl cs::Guest for Component {
+    type CoSimulationInstance = Handle<Setup>;
+}
+
+impl me::Guest for Component {
+    type ModelExchangeInstance = Handle<Setup>;
+}
+
+#[cfg(target_family = "wasm")]
+#[allow(unsafe_code, reason = "exported names of the canonical ABI")]
+const _: () = {
+    bindings::export!(Component);
+};
