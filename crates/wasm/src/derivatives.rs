@@ -1,10 +1,19 @@
 //! Directional derivatives, derivatives of inputs and outputs.
 
 use crate::bindings::fmi::fmi3::types::Status;
-use crate::calls;
 use crate::handle::Handle;
 use crate::values::expect_one_each;
+use fmi_model::instance::Interface;
 use fmi_model::model::Model;
+use fmi_model::phase::Call;
+use fmi_model::v3::calls;
+
+/// The interface has this function, although FMI 3.0 has none of the kind.
+const SET_INPUT_DERIVATIVES: Call = Call {
+    name: "set-input-derivatives",
+    interface: Some(Interface::CoSimulation),
+    ..calls::SET_FLOAT64
+};
 
 /// Value references and orders; an order that no `i32` holds is refused like the largest one.
 fn split(requests: &[(u32, u32)]) -> (Vec<u32>, Vec<i32>) {
@@ -29,12 +38,26 @@ impl<M: Model> Handle<M> {
         })
     }
 
+    pub(crate) fn get_adjoint_derivative(
+        &self,
+        unknowns: Vec<u32>,
+        knowns: Vec<u32>,
+        seed: Vec<f64>,
+    ) -> Result<Vec<f64>, Status> {
+        self.ask(&calls::GET_ADJOINT_DERIVATIVE, |instance| {
+            expect_one_each("nSeed", &unknowns, seed.len())?;
+            let mut sums = Vec::with_capacity(knowns.len());
+            instance.adjoint_derivative(&unknowns, &knowns, &seed, |_, sum| sums.push(sum))?;
+            Ok(sums)
+        })
+    }
+
     pub(crate) fn set_input_derivatives(
         &self,
         requests: Vec<(u32, u32)>,
         values: Vec<f64>,
     ) -> Status {
-        self.call(&calls::SET_INPUT_DERIVATIVES, |instance| {
+        self.call(&SET_INPUT_DERIVATIVES, |instance| {
             expect_one_each("nValues", &requests, values.len())?;
             let (inputs, orders) = split(&requests);
             instance.set_input_derivatives(&inputs, &orders, &values)

@@ -2,14 +2,14 @@
 
 use crate::bindings::fmi::fmi3::callbacks::log_message;
 use crate::bindings::fmi::fmi3::types::Status;
-use crate::calls::Call;
 use fmi_model::failure::{Failure, Outcome};
 use fmi_model::guard;
 use fmi_model::instance::{Instance, Interface};
 use fmi_model::instantiate::Request;
-use fmi_model::log::Message;
 use fmi_model::model::Model;
-use fmi_model::v2::sys;
+use fmi_model::phase::Call;
+use fmi_model::standard::Standard;
+use fmi_model::status;
 use std::cell::RefCell;
 
 /// An instance and its name; the host drops it.
@@ -17,6 +17,8 @@ use std::cell::RefCell;
 pub struct Handle<M: Model> {
     name: String,
     instance: RefCell<Instance<M>>,
+    /// Whether a step may say that it ended early.
+    pub(crate) early_return_allowed: bool,
 }
 
 impl<M: Model> Handle<M> {
@@ -38,23 +40,30 @@ impl<M: Model> Handle<M> {
             logging_on,
         };
         match Instance::instantiate(request) {
-            Ok(instance) => Some(Self { name, instance: RefCell::new(instance) }),
-            Err(problem) => {
-                refuse(&name, &problem.to_string());
-                None
+            Ok(instance) => {
+                let instance = RefCell::new(instance);
+                Some(Self { name, instance, early_return_allowed: false })
             }
+            Err(problem) => refuse(interface, &name, &problem.to_string()),
         }
     }
 
     /// Makes one call on the instance; its messages go out when nothing borrows the instance any more.
     pub fn call(&self, call: &Call, body: impl FnOnce(&mut Instance<M>) -> Outcome) -> Status {
+        let mut body = Some(body);
+        self.run(call, &mut |instance| body.take().map_or(Ok(()), |body| body(instance)))
+    }
+
+    /// Not generic over the body, which makes the component a fifth smaller.
+    fn run(&self, call: &Call, body: &mut dyn FnMut(&mut Instance<M>) -> Outcome) -> Status {
         let (status, messages) = {
             let mut instance = self.instance.borrow_mut();
             (guard::run(&mut instance, call, body), instance.log.take())
         };
         for message in &messages {
             let category = message.category.name().to_string_lossy();
-            log_message(&self.name, status_of(message.status), &category, &text(message));
+            let text = message.escaped(Standard::Fmi3);
+            log_message(&self.name, status_of(message.status), &category, &text.to_string_lossy());
         }
         status_of(status)
     }
@@ -74,22 +83,22 @@ impl<M: Model> Handle<M> {
     }
 }
 
-/// Tells the host why there is no instance.
-pub fn refuse(name: &str, text: &str) {
-    log_message(name, Status::Error, "logStatusError", &format!("fmi3Instantiate: {text}"));
+/// No instance: tells the host why.
+pub fn refuse<T>(interface: Interface, name: &str, problem: &str) -> Option<T> {
+    let call = match interface {
+        Interface::CoSimulation => "fmi3InstantiateCoSimulation",
+        Interface::ModelExchange => "fmi3InstantiateModelExchange",
+    };
+    log_message(name, Status::Error, "logStatusError", &format!("{call}: {problem}"));
+    None
 }
 
-fn status_of(status: sys::Status) -> Status {
+fn status_of(status: status::Status) -> Status {
     match status {
-        sys::Status::Ok => Status::Ok,
-        sys::Status::Warning => Status::Warning,
-        sys::Status::Discard => Status::Discard,
-        sys::Status::Error => Status::Error,
-        _ => Status::Fatal,
+        status::Status::Ok => Status::Ok,
+        status::Status::Warning => Status::Warning,
+        status::Status::Discard => Status::Discard,
+        status::Status::Error => Status::Error,
+        status::Status::Fatal => Status::Fatal,
     }
-}
-
-/// A text that no `printf` reads.
-fn text(message: &Message) -> String {
-    message.text.to_string_lossy().replace("%%", "%")
 }

@@ -4,20 +4,18 @@
 //! | module | its job |
 //! |---|---|
 //! | [`bindings`] | the interface in Rust, generated |
-//! | [`calls`] | legal order of calls |
 //! | [`handle`] | one instance: calls through the guard, messages for the host |
 //! | [`lifecycle`], [`values`], [`derivatives`] | functions of both interfaces |
-//! | [`absent`] | functions for what no model has: clocks, other types |
 //! | [`co_simulation`], [`model_exchange`] | the two interfaces |
+//!
+//! There is no intermediate update: a component cannot be called while it calls its host.
 //!
 //! WebAssembly cannot unwind here: a panic is a trap, which ends the host's instance of the component.
 
 #![deny(unsafe_code)]
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods, clippy::disallowed_types)]
 
-pub mod absent;
 pub mod bindings;
-pub mod calls;
 pub mod co_simulation;
 pub mod derivatives;
 pub mod handle;

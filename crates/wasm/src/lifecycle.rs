@@ -1,10 +1,10 @@
 //! From instantiation to the end, and the FMU state.
 
 use crate::bindings::fmi::fmi3::types::{DiscreteStatesInfo, Status};
-use crate::calls;
 use crate::handle::Handle;
 use fmi_model::instance::Instance;
 use fmi_model::model::Model;
+use fmi_model::v3::calls;
 
 impl<M: Model> Handle<M> {
     pub(crate) fn set_debug_logging(&self, logging_on: bool, categories: Vec<String>) -> Status {

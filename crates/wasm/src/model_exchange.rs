@@ -1,19 +1,19 @@
 //! Functions of Model Exchange.
 
-use crate::absent::not_provided;
 use crate::bindings::exports::fmi::fmi3::model_exchange::{
     CompletedStepResult, GuestModelExchangeInstance, ModelExchangeInstance,
 };
 use crate::bindings::fmi::fmi3::types::{
     DiscreteStatesInfo, IntervalFraction, IntervalQualifier, Status, VariableDependency,
 };
-use crate::calls;
 use crate::handle::Handle;
 use crate::shared::shared_functions;
 use fmi_model::exchange::EVENT_INDICATORS;
+use fmi_model::failure::Failure;
 use fmi_model::instance::{Instance, Interface};
 use fmi_model::model::Model;
 use fmi_model::table;
+use fmi_model::v3::{calls, types};
 
 impl<M: Model> GuestModelExchangeInstance for Handle<M> {
     fn instantiate_model_exchange(

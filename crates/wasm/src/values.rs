@@ -1,78 +1,52 @@
-//! Reading and setting variables of the types that a model can have.
+//! Reading and setting variables; no variable has most of the types.
 
 use crate::bindings::fmi::fmi3::types::Status;
-use crate::calls;
 use crate::handle::Handle;
 use fmi_model::failure::{Failure, Outcome};
 use fmi_model::model::Model;
-
-/// Value reference of the independent variable, which is in no table.
-const TIME: u32 = 2_147_483_647;
+use fmi_model::phase::Call;
+use fmi_model::values::Type;
 
 impl<M: Model> Handle<M> {
-    pub(crate) fn get_float64(&self, references: Vec<u32>) -> Result<Vec<f64>, Status> {
-        self.ask(&calls::GET_FLOAT64, |instance| {
-            let others: Vec<_> = references.iter().copied().filter(|&other| other != TIME).collect();
+    /// Reads variables of a type.
+    pub(crate) fn get(
+        &self,
+        call: &Call,
+        asked: &Type,
+        references: &[u32],
+    ) -> Result<Vec<f64>, Status> {
+        self.ask(call, |instance| {
             let mut values = Vec::with_capacity(references.len());
-            instance.get_real(&others, |_, value| values.push(value))?;
-            for (i, _) in references.iter().enumerate().filter(|(_, reference)| **reference == TIME) {
-                values.insert(i, instance.time());
-            }
+            instance.get(asked, references, |_, value| values.push(value))?;
             Ok(values)
         })
     }
 
-    pub(crate) fn get_int64(&self, references: Vec<u32>) -> Result<Vec<i64>, Status> {
-        self.ask(&calls::GET_INT64, |instance| {
-            let mut values = Vec::with_capacity(references.len());
-            instance.get_integer(&references, |_, value| values.push(value.into()))?;
-            Ok(values)
-        })
-    }
-
-    pub(crate) fn get_boolean(&self, references: Vec<u32>) -> Result<Vec<bool>, Status> {
-        self.ask(&calls::GET_BOOLEAN, |instance| {
-            let mut values = Vec::with_capacity(references.len());
-            instance.get_boolean(&references, |_, value| values.push(value))?;
-            Ok(values)
-        })
-    }
-
-    pub(crate) fn set_float64(&self, references: Vec<u32>, values: Vec<f64>) -> Status {
-        self.call(&calls::SET_FLOAT64, |instance| {
-            expect_one_each("nValues", &references, values.len())?;
-            instance.set_real(&references, &values)
-        })
-    }
-
-    pub(crate) fn set_int64(&self, references: Vec<u32>, values: Vec<i64>) -> Status {
-        self.call(&calls::SET_INT64, |instance| {
-            expect_one_each("nValues", &references, values.len())?;
-            // No enumeration has so large a value: the nearest one is refused too.
-            let nearest = |&value: &i64| value.clamp(i32::MIN.into(), i32::MAX.into()) as i32;
-            let values: Vec<_> = values.iter().map(nearest).collect();
-            instance.set_integer(&references, &values)
-        })
-    }
-
-    pub(crate) fn set_boolean(&self, references: Vec<u32>, values: Vec<bool>) -> Status {
-        self.call(&calls::SET_BOOLEAN, |instance| {
-            expect_one_each("nValues", &references, values.len())?;
-            let values: Vec<_> = values.into_iter().map(i32::from).collect();
-            instance.set_boolean(&references, &values)
+    /// Sets variables of a type.
+    pub(crate) fn set(
+        &self,
+        call: &Call,
+        asked: &Type,
+        references: &[u32],
+        values: &[f64],
+    ) -> Status {
+        self.call(call, |instance| {
+            expect_one_each("nValues", references, values.len())?;
+            instance.set(asked, references, |i| values[i])
         })
     }
 }
 
-/// Whether there is a value for each reference.
+/// Whether there is a value for each reference: all variables are scalars.
 pub(crate) fn expect_one_each<T>(
     argument: &'static str,
     references: &[T],
-    count: usize,
+    given: usize,
 ) -> Outcome {
-    if count == references.len() {
+    let needed = references.len();
+    if given == needed {
         return Ok(());
     }
-    let expected = format!("{} are needed", references.len());
-    Err(Failure::Argument { argument, value: count as f64, expected })
+    let expected = format!("all variables are scalars, so {needed} values are needed");
+    Err(Failure::Argument { argument, value: given as f64, expected })
 }

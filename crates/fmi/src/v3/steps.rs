@@ -9,6 +9,17 @@ use crate::steps::Reach;
 use crate::table::{MOST_KNOWNS, inputs};
 
 impl<M: Model> Instance<M> {
+    /// `fmi3DoStep` for a master that is not called within a step; [`Instance::ended`] tells whether the
+    /// simulation ends at the time reached.
+    ///
+    /// # Errors
+    /// Those of [`Instance::do_step`]; after the status discard nothing has changed.
+    pub fn whole_step(&mut self, point: f64, step: f64) -> Outcome {
+        let end = self.end_of_step(point, step)?;
+        self.remember(&mut [0.0; MOST_KNOWNS])?;
+        self.leg(end, Reach::End)
+    }
+
     /// Remembers where a step begins, and what the inputs are.
     ///
     /// # Errors
