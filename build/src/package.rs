@@ -6,6 +6,7 @@ mod library;
 mod platform;
 mod reference_experiment;
 mod terminals;
+pub mod wasm;
 mod windows;
 
 use crate::cli::Package;

@@ -1,9 +1,9 @@
 //! `cargo ahv test`: checks everything, quick checks first.
 
 use crate::cli::{Describe, Test};
-use crate::package::Targets;
-use crate::python::python;
-use crate::workspace::{cargo, check, root, target, works};
+use crate::package::{Targets, wasm};
+use crate::python::{environment, python};
+use crate::workspace::{cargo, check, root, target, works, write};
 use crate::{abi_stress, console, describe, masters, package, research};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
@@ -24,7 +24,7 @@ use Level::{Always, Thorough};
 /// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 17] = [
+const STEPS: [Step; 18] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -74,9 +74,18 @@ const STEPS: [Step; 17] = [
             Ok(())
         }
     }),
+    (WEBASSEMBLY, Thorough, |options| match wasm::toolchain() {
+        Ok(toolchain) => webassembly(toolchain),
+        Err(missing) if options.all_targets => Err(missing),
+        Err(missing) => {
+            errln!("skipped: {missing:#}");
+            Ok(())
+        }
+    }),
 ];
 
 const WINDOWS: &str = "Windows";
+const WEBASSEMBLY: &str = "WebAssembly";
 
 pub fn run(options: &Test) -> Result<()> {
     let wanted = |step: &&Step| options.thorough || step.1 == Always;
@@ -110,7 +119,7 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows; see --thorough"
+            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows, WebAssembly; see --thorough"
         );
     }
     Ok(())
@@ -163,6 +172,22 @@ fn missing_for_windows() -> Option<String> {
     }
     (!works("wine", &["--version"]))
         .then(|| "wine is missing; on Debian: apt-get install wine wine64".to_string())
+}
+
+/// Builds the component, and flies it in a runtime of WebAssembly.
+fn webassembly(toolchain: wasm::Toolchain) -> Result<()> {
+    let component = target().join("ahv.wasm");
+    write(&component, wasm::component(toolchain)?)?;
+    let tests = root().join("tests/wasm");
+    let python = environment("wasm", &tests.join("requirements.lock"))?.python;
+    check(
+        Command::new(python)
+            .args(["-m", "pytest", "-p", "no:cacheprovider", "--quiet"])
+            .arg(tests)
+            .current_dir(root())
+            .env("AHV_FMU", package::default_output(Targets::Possible))
+            .env("AHV_WASM", component),
+    )
 }
 
 fn python_lints() -> Result<()> {

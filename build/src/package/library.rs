@@ -45,18 +45,30 @@ pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
     compile(toolchain.command, WINDOWS, WINDOWS.fmi2, flags)
 }
 
-/// Runs `cargo rustc` with our options; returns the path of the library.
+/// Compiles the library for a platform.
+fn compile(
+    command: Command,
+    platform: Platform,
+    directory: &str,
+    flags: Vec<OsString>,
+) -> Result<PathBuf> {
+    compile_crate(command, "ahv-fmu", MODEL_IDENTIFIER, platform, directory, flags)
+}
+
+/// Runs `cargo rustc` with our options; returns the path of the library with this name of a package.
 ///
 /// Each kind of build has its own target directory, because compilers and flags differ.
-fn compile(
+pub fn compile_crate(
     mut command: Command,
+    package: &str,
+    name: &str,
     platform: Platform,
     directory: &str,
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
     command
         // With the C interface only, link-time optimisation makes the library 4 % smaller.
-        .args(["--release", "--package", "ahv-fmu", "--lib", "--crate-type", "cdylib"])
+        .args(["--release", "--package", package, "--lib", "--crate-type", "cdylib"])
         .args(["--config", "profile.release.lto='fat'"])
         .args(["--config", "profile.release.strip='symbols'"])
         .arg("--message-format=json-render-diagnostics")
@@ -79,11 +91,11 @@ fn compile(
         .filter_map(|file| file.as_str().map(PathBuf::from))
         .find(|file| {
             file.extension().is_some_and(|ending| ending == platform.ending)
-                && file.file_stem().is_some_and(|stem| {
-                    stem.to_string_lossy().trim_start_matches("lib") == MODEL_IDENTIFIER
-                })
+                && file
+                    .file_stem()
+                    .is_some_and(|stem| stem.to_string_lossy().trim_start_matches("lib") == name)
         })
-        .ok_or_else(|| anyhow!("cargo reported no path of the library ahv.{}", platform.ending))
+        .ok_or_else(|| anyhow!("cargo reported no path of the library {name}.{}", platform.ending))
 }
 
 /// Compiler flags: the user's, ours, and those that remove local directories from the source paths in panic
@@ -106,7 +118,7 @@ fn rustflags(ours: Vec<OsString>) -> OsString {
     flags.join(OsStr::new("\x1f"))
 }
 
-fn remap(path: &Path, name: &str) -> OsString {
+pub fn remap(path: &Path, name: &str) -> OsString {
     let mut flag = OsString::from("--remap-path-prefix=");
     flag.push(path);
     flag.push(format!("={name}"));

@@ -13,6 +13,9 @@ const HOW_TO_GET: &str = "on Debian: apt-get install gcc-mingw-w64-x86-64 rustc-
                           rust-web-src; with rustup: rustup target add x86_64-pc-windows-gnu, and \
                           a MinGW-w64 linker";
 
+const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
+const DEBIAN_CARGO: &str = "/usr/bin/cargo";
+
 /// A Cargo that can build for Windows, up to its subcommand's options.
 pub struct Toolchain {
     pub command: Command,
@@ -28,13 +31,13 @@ pub fn toolchain() -> Result<Toolchain> {
         return Err(missing(&format!("the linker {LINKER} is missing")));
     }
     let own = PathBuf::from(variable("RUSTC").unwrap_or_else(|| "rustc".into()));
-    let (mut command, std) = if has_target(&own) {
+    let (mut command, std) = if has_target(&own, WINDOWS.triple) {
         let mut command = cargo();
         command.arg("rustc");
         (command, None)
     } else {
-        let (command, std) = debian().map_err(|error| missing(&format!("{error:#}")))?;
-        (command, Some(std))
+        let std = debian().map_err(|error| missing(&format!("{error:#}")))?;
+        (debian_cargo("std,panic_unwind"), Some(std))
     };
     command
         .args(["--target", WINDOWS.triple])
@@ -46,12 +49,12 @@ pub fn toolchain() -> Result<Toolchain> {
     Ok(Toolchain { command, std })
 }
 
-/// Debian's Cargo and the sources of its standard library.
-fn debian() -> Result<(Command, PathBuf)> {
-    let rustc = Path::new("/usr/bin/rustc");
-    let program = Path::new("/usr/bin/cargo");
-    let Some(version) = output_of(rustc, &["--version"]).filter(|_| program.exists()) else {
-        bail!("no installed compiler has the target {}", WINDOWS.triple);
+/// The sources of the standard library of Debian's compiler.
+pub(super) fn debian() -> Result<PathBuf> {
+    let rustc = Path::new(DEBIAN_RUSTC);
+    let exists = Path::new(DEBIAN_CARGO).exists();
+    let Some(version) = output_of(rustc, &["--version"]).filter(|_| exists) else {
+        bail!("no installed compiler has the target");
     };
     let wanted = env!("CARGO_PKG_RUST_VERSION");
     let minor = |text: &str| text.split('.').nth(1).and_then(|minor| minor.parse::<u32>().ok());
@@ -63,25 +66,30 @@ fn debian() -> Result<(Command, PathBuf)> {
     if !std.join("library/std").exists() {
         bail!("the sources of the standard library of {version} are missing");
     }
-    let mut command = Command::new(program);
+    Ok(std)
+}
+
+/// `cargo rustc` of Debian's Cargo, which compiles these parts of the standard library too.
+pub(super) fn debian_cargo(parts: &str) -> Command {
+    let mut command = Command::new(DEBIAN_CARGO);
     command
         .current_dir(root())
-        .args(["rustc", "-Zbuild-std=std,panic_unwind"])
-        .env("RUSTC", rustc)
+        .args(["rustc", &format!("-Zbuild-std={parts}")])
+        .env("RUSTC", DEBIAN_RUSTC)
         // Allows -Z with a stable compiler.
         .env("RUSTC_BOOTSTRAP", "1")
         // Set by rustup for the libraries of the other toolchain.
         .env_remove("LD_LIBRARY_PATH");
-    Ok((command, std))
+    command
 }
 
-fn has_target(rustc: &Path) -> bool {
-    output_of(rustc, &["--target", WINDOWS.triple, "--print", "target-libdir"])
+pub(super) fn has_target(rustc: &Path, triple: &str) -> bool {
+    output_of(rustc, &["--target", triple, "--print", "target-libdir"])
         .is_some_and(|directory| Path::new(&directory).exists())
 }
 
 /// Standard output of a program, if it exists and succeeds.
-fn output_of(program: &Path, arguments: &[&str]) -> Option<String> {
+pub(super) fn output_of(program: &Path, arguments: &[&str]) -> Option<String> {
     let output = Command::new(program).args(arguments).output().ok()?;
     let text = String::from_utf8_lossy(&output.stdout).trim().to_string();
     output.status.success().then_some(text)

@@ -32,7 +32,7 @@ impl<M: Model> Handle<M> {
     ) -> Status {
         self.call(call, |instance| {
             expect_one_each("nValues", references, values.len())?;
-            instance.set(asked, references, |i| values[i])
+            instance.set(asked, references, &|i| values[i])
         })
     }
 }

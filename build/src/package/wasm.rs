@@ -1,0 +1,136 @@
+//! The WebAssembly component of the FMU, by the draft of the layered standard FMI-LS-WASM.
+
+use super::library::{compile_crate, remap};
+use super::platform::Platform;
+use super::windows::{debian, debian_cargo, has_target, output_of};
+use crate::describe::MODEL_IDENTIFIER;
+use crate::workspace::{cargo, root, shown, variable};
+use anyhow::{Context, Result, anyhow, bail};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The draft names the platform after a system that the component does not need: its core is compiled
+/// for none.
+const WASM: Platform = Platform {
+    fmi2: "wasm32-wasip2",
+    fmi3: "wasm32-wasip2",
+    ending: "wasm",
+    os: "unknown",
+    arch: "wasm32",
+    triple: "wasm32-unknown-unknown",
+};
+
+/// Linker for Debian's compiler, from LLVM; those of rustup have their own.
+const LINKER: &str = "wasm-ld";
+
+const HOW_TO_GET: &str = "on Debian: apt-get install lld rustc-web cargo-web rust-web-src; with \
+                          rustup: rustup target add wasm32-unknown-unknown";
+
+/// Folder of the layered standard in an FMU.
+const EXTRA: &str = "extra/org.modelica.fmi-ls-wasm";
+
+const MANIFEST: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmi-ls:fmiLayeredStandardManifest xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
+    fmi-ls:fmi-ls-name="org.modelica.fmi-ls-wasm"
+    fmi-ls:fmi-ls-version="0.1.0"
+    fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
+"#;
+
+/// A Cargo that can build for WebAssembly, up to its subcommand's options.
+pub struct Toolchain {
+    command: Command,
+    /// Sources of the standard library, if it has to be compiled.
+    std: Option<PathBuf>,
+}
+
+/// The Cargo that runs this tool if it has the target, otherwise Debian's with the sources of the
+/// standard library.
+pub fn toolchain() -> Result<Toolchain> {
+    let own = PathBuf::from(variable("RUSTC").unwrap_or_else(|| "rustc".into()));
+    let mut toolchain = if has_target(&own, WASM.triple) {
+        let mut command = cargo();
+        command.arg("rustc");
+        Toolchain { command, std: None }
+    } else {
+        let missing = |what: &str| anyhow!("without WebAssembly: {what}; {HOW_TO_GET}");
+        let std = debian().map_err(|error| missing(&format!("{error:#}")))?;
+        if output_of(Path::new(LINKER), &["--version"]).is_none() {
+            return Err(missing(&format!("the linker {LINKER} is missing")));
+        }
+        let mut command = debian_cargo("std,panic_abort");
+        command.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", LINKER);
+        Toolchain { command, std: Some(std) }
+    };
+    toolchain.command.args(["--target", WASM.triple]);
+    Ok(toolchain)
+}
+
+/// Name of the component in an archive of FMI 3.0.
+pub fn name() -> String {
+    format!("binaries/{}/{MODEL_IDENTIFIER}.{}", WASM.fmi3, WASM.ending)
+}
+
+/// Builds the component.
+pub fn component(toolchain: Toolchain) -> Result<Vec<u8>> {
+    // Every runtime that has components has these instructions.
+    let mut flags = vec!["-Ctarget-feature=+simd128".into()];
+    flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
+    let module = compile_crate(toolchain.command, "ahv-wasm", "ahv_wasm", WASM, "wasm", flags)?;
+    wrap(&module)
+}
+
+/// Wraps a core module into a component.
+fn wrap(module: &Path) -> Result<Vec<u8>> {
+    let mut wrap = cargo();
+    wrap.args([
+        "run",
+        "--quiet",
+        "--profile",
+        "tool",
+        "--package",
+        "ahv-wasm-wrap",
+        "--manifest-path",
+    ])
+    .arg(root().join("Cargo.toml"))
+    .arg("--")
+    .arg(module)
+    .stderr(Stdio::inherit());
+    let output = wrap.output().context("cannot start cargo")?;
+    if !output.status.success() {
+        bail!("{} cannot be made a component: see the messages above", shown(module));
+    }
+    Ok(output.stdout)
+}
+
+/// Manifests of the layered standard, by name: the FMI standard and the draft want different names.
+pub fn manifests() -> [(String, Vec<u8>); 2] {
+    ["fmi-ls-manifest.xml", "manifest.xml"]
+        .map(|name| (format!("{EXTRA}/{name}"), MANIFEST.as_bytes().to_vec()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_manifest_has_the_name_of_its_folder_in_the_namespace_of_the_standard() {
+        let folder = EXTRA.strip_prefix("extra/").unwrap();
+        let [standard, draft] = manifests();
+        assert_eq!(standard.0, format!("extra/{folder}/fmi-ls-manifest.xml"));
+        assert_eq!(draft.0, format!("extra/{folder}/manifest.xml"));
+        assert_eq!(standard.1, draft.1);
+        let mut reader = quick_xml::Reader::from_str(MANIFEST);
+        let root = loop {
+            if let quick_xml::events::Event::Empty(root) = reader.read_event().unwrap() {
+                break root;
+            }
+        };
+        assert_eq!(root.name().as_ref(), b"fmi-ls:fmiLayeredStandardManifest");
+        let value = |name: &str| root.try_get_attribute(name).unwrap().unwrap().value.into_owned();
+        assert_eq!(value("xmlns:fmi-ls"), b"http://fmi-standard.org/fmi-ls-manifest");
+        assert_eq!(value("fmi-ls:fmi-ls-name"), folder.as_bytes());
+        for name in ["fmi-ls:fmi-ls-version", "fmi-ls:fmi-ls-description"] {
+            assert!(!value(name).is_empty());
+        }
+    }
+}
