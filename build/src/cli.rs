@@ -233,7 +233,7 @@ pub struct Test {
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,
-    /// Fail if the library for Linux or Windows cannot be built or tested
+    /// Fail if the library for Linux or Windows or the WebAssembly component cannot be built or tested
     #[arg(long)]
     pub all_targets: bool,
 }
