@@ -125,10 +125,10 @@ mod tests {
                 break root;
             }
         };
-        assert_eq!(root.name().as_ref(), "fmi-ls:fmiLayeredStandardManifest");
+        assert_eq!(root.name().as_ref(), b"fmi-ls:fmiLayeredStandardManifest");
         let value = |name: &str| root.try_get_attribute(name).unwrap().unwrap().value.into_owned();
-        assert_eq!(value("xmlns:fmi-ls"), "http://fmi-standard.org/fmi-ls-manifest");
-        assert_eq!(value("fmi-ls:fmi-ls-name"), folder);
+        assert_eq!(value("xmlns:fmi-ls"), b"http://fmi-standard.org/fmi-ls-manifest");
+        assert_eq!(value("fmi-ls:fmi-ls-name"), folder.as_bytes());
         for name in ["fmi-ls:fmi-ls-version", "fmi-ls:fmi-ls-description"] {
             assert!(!value(name).is_empty());
         }

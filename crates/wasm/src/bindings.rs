@@ -1,7 +1,5 @@
 //! The interface of `wit/` in Rust.
 
-// Of the canonical ABI; generated, with pointers and lengths that the host's runtime has checked.
-#![allow(unsafe_code)]
 #![allow(missing_docs, clippy::all)]
 
 wit_bindgen::generate!({

@@ -47,7 +47,7 @@ impl me::Guest for Component {
 }
 
 #[cfg(target_family = "wasm")]
-#[allow(unsafe_code, reason = "exported names of the canonical ABI")]
+#[allow(unsafe_code, reason = "names and sections of the canonical ABI")]
 const _: () = {
     bindings::export!(Component);
 };
