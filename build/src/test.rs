@@ -1,6 +1,7 @@
 //! `cargo ahv test`: checks everything, quick checks first.
 
 use crate::cli::{Describe, Test};
+use crate::emulation::{QEMU, WINE, emulated};
 use crate::package::Targets;
 use crate::python::python;
 use crate::workspace::{cargo, check, root, target, works};
@@ -24,7 +25,7 @@ use Level::{Always, Thorough};
 /// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 17] = [
+const STEPS: [Step; 18] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -53,7 +54,11 @@ const STEPS: [Step; 17] = [
     }),
     ("description", Always, |_| describe::run(&Describe { check: true, file: None })),
     ("package", Always, |options| {
-        let targets = if options.all_targets { Targets::All } else { Targets::Possible };
+        let targets = match (options.all_targets, options.thorough) {
+            (true, _) => Targets::All,
+            (_, true) => Targets::Possible,
+            _ => Targets::AsExisting,
+        };
         package::build(&package::default_output(Targets::Possible), targets)
     }),
     ("Python lints", Always, |_| python_lints()),
@@ -65,18 +70,9 @@ const STEPS: [Step; 17] = [
     ("sanitizer", Thorough, |_| abi_stress::sanitizer()),
     ("valgrind", Thorough, |_| abi_stress::valgrind()),
     ("bench runs", Thorough, |_| bench()),
-    (WINDOWS, Thorough, |options| match missing_for_windows() {
-        // All programs in wine share one server, so they run one after the other.
-        None => pytest(&["tests/wine", "--numprocesses", "0"]),
-        Some(missing) if options.all_targets => bail!("{missing}"),
-        Some(missing) => {
-            errln!("skipped: {missing}");
-            Ok(())
-        }
-    }),
+    ("Windows", Thorough, |options| emulated(options, &WINE)),
+    ("ARM", Thorough, |options| emulated(options, &QEMU)),
 ];
-
-const WINDOWS: &str = "Windows";
 
 pub fn run(options: &Test) -> Result<()> {
     let wanted = |step: &&Step| options.thorough || step.1 == Always;
@@ -110,7 +106,7 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows; see --thorough"
+            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows, ARM; see --thorough"
         );
     }
     Ok(())
@@ -144,7 +140,7 @@ fn prerequisites(options: &Test) -> Result<()> {
 }
 
 /// Runs Python tests of the packaged FMU on all processors.
-fn pytest(arguments: &[&str]) -> Result<()> {
+pub fn pytest(arguments: &[&str]) -> Result<()> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
     check(
         Command::new(python()?)
@@ -154,15 +150,6 @@ fn pytest(arguments: &[&str]) -> Result<()> {
             .current_dir(root())
             .env("AHV_FMU", package::default_output(Targets::Possible)),
     )
-}
-
-/// The first missing prerequisite for tests of the Windows library.
-fn missing_for_windows() -> Option<String> {
-    if let Err(error) = package::can_build_for_windows() {
-        return Some(console::error_chain(&error));
-    }
-    (!works("wine", &["--version"]))
-        .then(|| "wine is missing; on Debian: apt-get install wine wine64".to_string())
 }
 
 fn python_lints() -> Result<()> {
