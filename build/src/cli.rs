@@ -90,7 +90,7 @@ impl From<Fmi> for Standard {
 #[command(after_help = "\
 Examples:
   cargo ahv package
-      build for Linux and, if possible, Windows, and write target/ahv.fmu
+      build for all platforms that this machine has compilers for, and write target/ahv.fmu
   cargo ahv package --vehicle mine.toml --coefficients my_air.toml
       the FMU of your own vehicle, target/own/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
@@ -99,14 +99,14 @@ pub struct Package {
     /// FMU to write [default: target/ahv.fmu]
     #[arg(long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Fail if the library for Linux or Windows cannot be built
+    /// Fail if the library for a platform cannot be built
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
     /// Build for this machine and its C library only, which is faster; writes target/ahv-host.fmu
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
     /// Package this library instead of building one (repeatable); platforms: linux64, win64,
-    /// darwin64, aarch64-linux, aarch64-windows, aarch64-darwin
+    /// darwin64, aarch64-linux, aarch64-windows, aarch64-darwin, or the names of FMI 3.0
     #[arg(long, value_name = "PLATFORM=FILE")]
     pub library: Vec<String>,
     #[command(flatten)]
@@ -224,16 +224,16 @@ pub struct Poles {
 Examples:
   cargo ahv test                             while you work: three minutes once compiled
   cargo ahv test --thorough                  before you submit a change: half an hour
-  cargo ahv test --thorough --all-targets    also fail if Windows cannot be built or tested")]
+  cargo ahv test --thorough --all-targets    also fail if a platform cannot be built or tested")]
 pub struct Test {
     /// Also test examples, other masters, 100,000 random call sequences, sanitizer, valgrind,
-    /// benchmarks and Windows
+    /// benchmarks, Windows and ARM
     #[arg(long)]
     pub thorough: bool,
     /// Stop at the first step that fails
     #[arg(long)]
     pub fail_fast: bool,
-    /// Fail if the library for Linux or Windows or the WebAssembly component cannot be built or tested
+    /// Fail if the library for a platform or the WebAssembly component cannot be built, or not be tested here
     #[arg(long)]
     pub all_targets: bool,
 }

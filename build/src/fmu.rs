@@ -1,7 +1,7 @@
 //! Opens an FMU: unzips it and reads its model description.
 
 use crate::model_description::ModelDescription;
-use crate::package::{Binary, host};
+use crate::package::{Binary, host, universal};
 use crate::workspace::{MAX_BINARY_BYTES, read, shown, write};
 use anyhow::{Context, Result, bail};
 use std::io::{Cursor, Read};
@@ -55,7 +55,9 @@ impl Fmu {
             bail!("{name} has no binary for this machine: {binary} is missing");
         }
         // Loading a damaged library may crash the process.
-        Binary::parse(&read(&path, MAX_BINARY_BYTES)?)
+        let content = read(&path, MAX_BINARY_BYTES)?;
+        universal::part(&content, host)
+            .and_then(Binary::parse)
             .and_then(|found| found.is_for(host))
             .with_context(|| format!("{name}: {binary}"))?;
         Ok(Self { directory, binary: path, model })

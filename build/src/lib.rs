@@ -11,6 +11,7 @@ pub mod cli;
 pub mod curve;
 pub mod describe;
 pub mod documentation;
+pub mod emulation;
 pub mod figure;
 pub mod fly;
 pub mod fmu;

@@ -2,60 +2,45 @@
 
 mod binary;
 mod cross_check;
+mod libraries;
 mod library;
+mod macos;
 mod platform;
 mod reference_experiment;
 mod terminals;
-pub mod wasm;
-mod windows;
+mod toolchain;
+pub mod universal;
+mod wasm;
 
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
 use crate::workspace::{MAX_BINARY_BYTES, can_write, read, root, shown, target, write};
-use crate::{console, documentation, licenses};
+use crate::{documentation, licenses};
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
 use fmi_model::standard::Standard;
-pub use platform::host;
-use platform::{LINUX, Platform, WINDOWS};
+use libraries::{Libraries, Library};
+pub use library::guard_on_arm;
+pub use platform::{LINUX_ARM, Platform, WINDOWS, host};
 use std::collections::BTreeMap;
 use std::env;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use tempfile::TempDir;
-use zip::ZipArchive;
 
 /// For which platforms an FMU is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Targets {
     /// This machine, with its C library.
     Host,
-    /// The platforms of the existing package, or Linux.
+    /// This machine, and the other platforms of the existing package if the model is the same.
     AsExisting,
     /// All that this machine can build for.
     Possible,
-    /// Linux and Windows; a missing one is an error.
+    /// All; a missing one is an error.
     All,
-}
-
-/// A library with its inspected binary.
-struct Library {
-    platform: Platform,
-    content: Vec<u8>,
-    binary: Binary,
-}
-
-/// Libraries for an FMU.
-#[derive(Default)]
-struct Libraries {
-    found: Vec<Library>,
-    /// Whether they were given by the user.
-    prebuilt: bool,
-    /// Libraries that could not be built as intended: what, why, and the remedy.
-    missing: Vec<String>,
 }
 
 pub fn run(options: &Package) -> Result<()> {
@@ -69,22 +54,12 @@ pub fn run(options: &Package) -> Result<()> {
     if options.library.is_empty() {
         return build(&output, targets);
     }
-    let libraries_given = options.library.iter().map(|text| platform::parse_library_option(text));
-    let mut libraries = Libraries::default();
-    for library in libraries_given {
-        libraries.add(library?)?;
-    }
-    libraries.prebuilt = true;
-    package(libraries, &output)
+    package(Libraries::given(&options.library)?, &output)
 }
 
 /// Builds and packages.
 pub fn build(output: &Path, targets: Targets) -> Result<()> {
-    let libraries = match targets {
-        Targets::Host => Libraries::host()?,
-        Targets::AsExisting => Libraries::build(has_windows(output))?,
-        Targets::Possible | Targets::All => Libraries::build(true)?,
-    };
+    let libraries = Libraries::build(targets, output)?;
     if targets == Targets::All && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
@@ -94,11 +69,10 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
 /// Writes the FMUs; prints their platforms and dependencies.
 fn package(libraries: Libraries, output: &Path) -> Result<()> {
     let host = host()?;
-    let flies = libraries.found.iter().any(|library| library.platform == host);
     let mut flown = None;
     for standard in Standard::ALL {
-        let mut files = contents(&libraries.found, standard)?;
-        if flies {
+        let mut files = contents(&libraries, standard)?;
+        if libraries.get(host).is_some() {
             let found = match flown.take() {
                 Some(found) => found,
                 None => reference(&files, libraries.prebuilt)?,
@@ -126,95 +100,15 @@ pub fn build_default(targets: Targets) -> Result<PathBuf> {
     Ok(output)
 }
 
-/// Whether a file is an FMU with a Windows library.
-fn has_windows(file: &Path) -> bool {
-    names(file).is_ok_and(|names| {
-        let folder = format!("binaries/{}/", WINDOWS.fmi2);
-        names.iter().any(|name| name.starts_with(&folder))
-    })
-}
-
-/// Names of the files in a zip.
-fn names(file: &Path) -> Result<Vec<String>> {
-    let mut zip = ZipArchive::new(Cursor::new(read(file, MAX_BINARY_BYTES)?))?;
-    let all = 0..zip.len();
-    all.map(|index| Ok(zip.by_index_raw(index)?.name()?.into_owned())).collect()
-}
-
-/// An error if the Windows library cannot be built here.
-pub fn can_build_for_windows() -> Result<()> {
-    windows::toolchain().map(drop)
+/// An error if the library for another platform cannot be built here.
+pub fn can_build_for(platform: Platform) -> Result<()> {
+    library::builder(platform, library::zig().ok().as_ref()).map(drop)
 }
 
 /// Default path of the FMU. A package for this machine only does not replace one for all platforms.
 pub fn default_output(targets: Targets) -> PathBuf {
     let kind = if targets == Targets::Host { "-host" } else { "" };
     target().join(format!("{MODEL_IDENTIFIER}{kind}.fmu"))
-}
-
-impl Libraries {
-    /// Inspects a library and adds it if it is valid for its platform.
-    fn add(&mut self, (platform, file): (Platform, PathBuf)) -> Result<&Binary> {
-        if self.found.iter().any(|known| known.platform == platform) {
-            bail!("there are two libraries for {}", platform.fmi2);
-        }
-        let content = read(&file, MAX_BINARY_BYTES)?;
-        let binary = Binary::parse(&content).with_context(|| shown(&file))?;
-        binary.check(platform).with_context(|| shown(&file))?;
-        self.found.push(Library { platform, content, binary });
-        Ok(&self.found[self.found.len() - 1].binary)
-    }
-
-    /// Builds for this machine, as plain `cargo build` does.
-    fn host() -> Result<Self> {
-        let mut libraries = Self::default();
-        libraries.add((host()?, library::for_host()?))?;
-        Ok(libraries)
-    }
-
-    /// Builds for Linux and, if `windows`, for Windows where possible.
-    fn build(windows: bool) -> Result<Self> {
-        let mut libraries = Self::default();
-        let host = host()?;
-        if host != LINUX {
-            libraries = Self::host()?;
-            libraries.missing.push(format!(
-                "contains only {}: packages for Linux and Windows are built on Linux (x86-64)",
-                host.fmi2
-            ));
-            return Ok(libraries);
-        }
-        match library::zig() {
-            Ok(zig) => {
-                let library = library::for_linux(&zig)?;
-                libraries.add((LINUX, library))?.check_everywhere(LINUX)?;
-            }
-            Err(error) => {
-                let library = library::for_host()?;
-                let glibc = libraries.add((LINUX, library))?.glibc.unwrap_or_default();
-                libraries.missing.push(format!(
-                    "linux64 needs glibc {}.{}, as this machine has; supporting glibc 2.17 requires \
-                     the linker of zig: {}",
-                    glibc.0,
-                    glibc.1,
-                    console::error_chain(&error)
-                ));
-            }
-        }
-        if !windows {
-            let missing = "without Windows; to add it: cargo ahv package";
-            libraries.missing.push(missing.to_string());
-            return Ok(libraries);
-        }
-        match windows::toolchain() {
-            Ok(toolchain) => {
-                let library = library::for_windows(toolchain)?;
-                libraries.add((WINDOWS, library))?.check_everywhere(WINDOWS)?;
-            }
-            Err(error) => libraries.missing.push(console::error_chain(&error)),
-        }
-        Ok(libraries)
-    }
 }
 
 /// Where the FMU of a standard is written if that of FMI 2.0 is written to `output`.
@@ -226,10 +120,16 @@ pub fn of(standard: Standard, output: &Path) -> PathBuf {
     }
 }
 
+/// The WebAssembly component of a package, whose FMU of FMI 2.0 is at `output`.
+pub fn component(output: &Path) -> Result<Vec<u8>> {
+    libraries::entry(&of(Standard::Fmi3, output), &wasm::name())
+        .context("there is no WebAssembly component; to add it: cargo ahv package")
+}
+
 /// Files of the FMU, by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
-fn contents(libraries: &[Library], standard: Standard) -> Result<Files> {
+fn contents(libraries: &Libraries, standard: Standard) -> Result<Files> {
     let mut files = Files::new();
     files.insert("modelDescription.xml".to_string(), describe::xml(standard)?.into_bytes());
     files.extend(licenses::collect()?);
@@ -237,12 +137,12 @@ fn contents(libraries: &[Library], standard: Standard) -> Result<Files> {
     if standard == Standard::Fmi2 {
         files.insert("model.png".to_string(), icon("vehicle")?);
     }
-    let mut machines = Vec::new();
-    for Library { platform, content, binary } in libraries {
-        let name = platform.binary(standard, MODEL_IDENTIFIER);
-        machines.push(platform::machines(*platform, binary.glibc));
-        files.insert(name, content.clone());
-    }
+    files.extend(libraries.files(standard));
+    let machines: Vec<_> = libraries
+        .found
+        .iter()
+        .map(|library| platform::machines(library.platform, library.binary.glibc))
+        .collect();
     let page = documentation::html(&machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)

@@ -1,7 +1,8 @@
 //! `cargo ahv test`: checks everything, quick checks first.
 
 use crate::cli::{Describe, Test};
-use crate::package::{Targets, wasm};
+use crate::emulation::{QEMU, WINE, emulated};
+use crate::package::Targets;
 use crate::python::{environment, python};
 use crate::workspace::{cargo, check, root, target, works, write};
 use crate::{abi_stress, console, describe, masters, package, research};
@@ -24,7 +25,7 @@ use Level::{Always, Thorough};
 /// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 18] = [
+const STEPS: [Step; 19] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -53,7 +54,11 @@ const STEPS: [Step; 18] = [
     }),
     ("description", Always, |_| describe::run(&Describe { check: true, file: None, fmi: None })),
     ("package", Always, |options| {
-        let targets = if options.all_targets { Targets::All } else { Targets::Possible };
+        let targets = match (options.all_targets, options.thorough) {
+            (true, _) => Targets::All,
+            (_, true) => Targets::Possible,
+            _ => Targets::AsExisting,
+        };
         package::build(&package::default_output(Targets::Possible), targets)
     }),
     ("Python lints", Always, |_| python_lints()),
@@ -65,27 +70,10 @@ const STEPS: [Step; 18] = [
     ("sanitizer", Thorough, |_| abi_stress::sanitizer()),
     ("valgrind", Thorough, |_| abi_stress::valgrind()),
     ("bench runs", Thorough, |_| bench()),
-    (WINDOWS, Thorough, |options| match missing_for_windows() {
-        // All programs in wine share one server, so they run one after the other.
-        None => pytest(&["tests/wine", "--numprocesses", "0"]),
-        Some(missing) if options.all_targets => bail!("{missing}"),
-        Some(missing) => {
-            errln!("skipped: {missing}");
-            Ok(())
-        }
-    }),
-    (WEBASSEMBLY, Thorough, |options| match wasm::toolchain() {
-        Ok(toolchain) => webassembly(toolchain),
-        Err(missing) if options.all_targets => Err(missing),
-        Err(missing) => {
-            errln!("skipped: {missing:#}");
-            Ok(())
-        }
-    }),
+    ("Windows", Thorough, |options| emulated(options, &WINE)),
+    ("ARM", Thorough, |options| emulated(options, &QEMU)),
+    ("WebAssembly", Thorough, webassembly),
 ];
-
-const WINDOWS: &str = "Windows";
-const WEBASSEMBLY: &str = "WebAssembly";
 
 pub fn run(options: &Test) -> Result<()> {
     let wanted = |step: &&Step| options.thorough || step.1 == Always;
@@ -119,7 +107,7 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows, WebAssembly; see --thorough"
+            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows, ARM, WebAssembly; see --thorough"
         );
     }
     Ok(())
@@ -153,7 +141,7 @@ fn prerequisites(options: &Test) -> Result<()> {
 }
 
 /// Runs Python tests of the packaged FMU on all processors.
-fn pytest(arguments: &[&str]) -> Result<()> {
+pub fn pytest(arguments: &[&str]) -> Result<()> {
     let workers = thread::available_parallelism().map_or(1, usize::from);
     check(
         Command::new(python()?)
@@ -165,19 +153,18 @@ fn pytest(arguments: &[&str]) -> Result<()> {
     )
 }
 
-/// The first missing prerequisite for tests of the Windows library.
-fn missing_for_windows() -> Option<String> {
-    if let Err(error) = package::can_build_for_windows() {
-        return Some(console::error_chain(&error));
-    }
-    (!works("wine", &["--version"]))
-        .then(|| "wine is missing; on Debian: apt-get install wine wine64".to_string())
-}
-
-/// Builds the component, and flies it in a runtime of WebAssembly.
-fn webassembly(toolchain: wasm::Toolchain) -> Result<()> {
-    let component = target().join("ahv.wasm");
-    write(&component, wasm::component(toolchain)?)?;
+/// Flies the WebAssembly component of the package in a runtime.
+fn webassembly(options: &Test) -> Result<()> {
+    let component = match package::component(&package::default_output(Targets::Possible)) {
+        Ok(component) => component,
+        Err(missing) if options.all_targets => return Err(missing),
+        Err(missing) => {
+            errln!("skipped: {missing:#}");
+            return Ok(());
+        }
+    };
+    let file = target().join("ahv.wasm");
+    write(&file, component)?;
     let tests = root().join("tests/wasm");
     let python = environment("wasm", &tests.join("requirements.lock"))?.python;
     check(
@@ -186,7 +173,7 @@ fn webassembly(toolchain: wasm::Toolchain) -> Result<()> {
             .arg(tests)
             .current_dir(root())
             .env("AHV_FMU", package::default_output(Targets::Possible))
-            .env("AHV_WASM", component),
+            .env("AHV_WASM", file),
     )
 }
 

@@ -1,12 +1,15 @@
 //! Inspects a library: format, dependencies and exported functions.
 
+mod elf;
+mod macho;
+
 use super::platform::Platform;
 use anyhow::{Context, Result, bail};
+use elf::version;
 use fmi_model::export::exported;
-use object::elf::FileHeader64;
-use object::read::elf::{FileHeader, SectionHeader};
+use macho::MachO;
 use object::read::{File, NameOrOrdinal};
-use object::{Architecture, BinaryFormat, Endianness, Object, ObjectKind, ObjectSection};
+use object::{Architecture, BinaryFormat, Object, ObjectKind, ObjectSection};
 use std::collections::BTreeSet;
 
 /// Version of the GNU C library: major, minor.
@@ -54,6 +57,7 @@ pub struct Binary {
     pub glibc: Option<Glibc>,
     /// Names of the libraries that are loaded with it.
     pub needed: BTreeSet<String>,
+    macho: Option<MachO>,
     /// Names of exported functions.
     exports: BTreeSet<String>,
 }
@@ -80,17 +84,29 @@ impl Binary {
             })
         });
         let exports = exports.collect::<Result<_>>()?;
+        let other = Self {
+            format,
+            architecture,
+            glibc: None,
+            needed: BTreeSet::new(),
+            macho: None,
+            exports,
+        };
         if let File::Elf64(_) = file {
-            let (needed, versions) = elf(bytes)?;
+            let (needed, versions) = elf::dependencies(bytes)?;
             let glibc = versions.iter().filter_map(|name| version(name)).max();
-            return Ok(Self { format, architecture, glibc, needed, exports });
+            return Ok(Self { glibc, needed, ..other });
+        }
+        if let File::MachO64(file) = &file {
+            let (macho, needed) = macho::properties(file)?;
+            return Ok(Self { needed, macho: Some(macho), ..other });
         }
         let imports = file.imports()?.map(|import| Ok(text(import?.library())));
         let mut needed = imports.collect::<Result<BTreeSet<_>>>()?;
         if format == BinaryFormat::Pe {
             needed = needed.iter().map(|name| name.to_lowercase()).collect();
         }
-        Ok(Self { format, architecture, glibc: None, needed, exports })
+        Ok(Self { needed, ..other })
     }
 
     /// Checks operating system and processor.
@@ -147,7 +163,7 @@ impl Binary {
                 more.join(", ")
             );
         }
-        Ok(())
+        self.macho.as_ref().map_or(Ok(()), |macho| macho.check(platform))
     }
 
     /// Also checks that old systems have the dependencies.
@@ -160,45 +176,8 @@ impl Binary {
             let (most, least) = GLIBC;
             bail!("{} needs glibc {major}.{minor}, newer than {most}.{least}", platform.fmi2);
         }
-        Ok(())
+        self.macho.as_ref().map_or(Ok(()), |macho| macho.check_everywhere(platform))
     }
-}
-
-/// Needed libraries and needed versions of an ELF file.
-fn elf(bytes: &[u8]) -> Result<(BTreeSet<String>, BTreeSet<String>)> {
-    let header = FileHeader64::<Endianness>::parse(bytes)?;
-    let endian = header.endian()?;
-    let sections = header.sections(endian, bytes)?;
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let mut needed = BTreeSet::new();
-    let mut versions = BTreeSet::new();
-    if let Some((mut files, link)) = sections.gnu_verneed(endian, bytes)? {
-        let strings = sections.strings(endian, bytes, link)?;
-        while let Some((_, mut symbols)) = files.next()? {
-            while let Some(symbol) = symbols.next()? {
-                versions.insert(text(symbol.name(endian, strings)?));
-            }
-        }
-    }
-    for section in sections.iter() {
-        let Some((entries, link)) = section.dynamic(endian, bytes)? else { continue };
-        let strings = sections.strings(endian, bytes, link)?;
-        for entry in entries {
-            if entry.d_tag.get(endian) == object::elf::DT_NEEDED {
-                let offset = u32::try_from(entry.d_val.get(endian))?;
-                needed.insert(text(strings.get(offset).ok().context("a name is missing")?));
-            }
-        }
-    }
-    Ok((needed, versions))
-}
-
-/// Parses `GLIBC_2.14` or `GLIBC_2.2.5`; `None` for versions of other libraries.
-fn version(name: &str) -> Option<Glibc> {
-    let mut numbers = name.strip_prefix("GLIBC_")?.split('.').map(str::parse);
-    // An unreadable version counts as the newest, and is refused.
-    let mut number = || numbers.next().and_then(Result::ok).unwrap_or(u32::MAX);
-    Some((number(), number()))
 }
 
 #[cfg(test)]
@@ -213,6 +192,7 @@ mod tests {
             architecture: Architecture::X86_64,
             glibc: elf.then_some(glibc),
             needed: [needed.to_string()].into(),
+            macho: None,
             exports: exported().map(str::to_string).collect(),
         }
     }

@@ -1,8 +1,9 @@
 //! Compiles the library for a platform.
 
 use super::binary::GLIBC;
-use super::platform::{LINUX, Platform, WINDOWS, host};
-use super::windows::Toolchain;
+use super::macos;
+use super::platform::{LINUX, LINUX_ARM, Platform, WINDOWS, host};
+use super::toolchain::{Toolchain, output_of};
 use crate::describe::MODEL_IDENTIFIER;
 use crate::python::{Environment, environment};
 use crate::workspace::{cargo, root, target, variable};
@@ -12,6 +13,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+/// With the C interface only, link-time optimisation makes the library 4 % smaller.
+const LTO: [&str; 2] = ["--config", "profile.release.lto='fat'"];
+
+/// Linker for Windows, from MinGW-w64.
+const MINGW: &str = "x86_64-w64-mingw32-gcc";
+
 /// Builds the library for this machine, which then needs its C library or a newer one.
 pub fn for_host() -> Result<PathBuf> {
     let mut command = cargo();
@@ -19,30 +26,120 @@ pub fn for_host() -> Result<PathBuf> {
     compile(command, host()?, "host", Vec::new())
 }
 
-/// The linker of zig, which has the interfaces of all glibc versions.
+/// The linker of zig, which has the interfaces of all glibc versions and of macOS.
 pub fn zig() -> Result<Environment> {
     environment("zig", &root().join("build/zig/requirements.lock"))
 }
 
-/// Builds the library for Linux, linked against the interface of glibc 2.17.
+/// Builds the library for Linux on this processor, linked against the interface of glibc 2.17.
 pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
-    let caches = target().join("fmu/zig");
-    let mut command = Command::new(zig.programs.join("cargo-zigbuild"));
+    compile(with_zig(zig, &Toolchain::OWN, LINUX, "rustc"), LINUX, LINUX.fmi2, Vec::new())
+}
+
+/// What builds the library for another platform.
+pub struct Builder<'zig> {
+    platform: Platform,
+    toolchain: Toolchain,
+    linker: Linker<'zig>,
+}
+
+enum Linker<'zig> {
+    Mingw,
+    Zig(&'zig Environment),
+    Lld(&'zig Environment, PathBuf),
+}
+
+/// What builds the library for another platform, or what is missing for it.
+pub fn builder(platform: Platform, zig: Option<&Environment>) -> Result<Builder<'_>> {
+    let zig = zig.context("the linker of zig is missing");
+    let linker = match platform.os {
+        "windows" => {
+            if output_of(Path::new(MINGW), &["--version"]).is_none() {
+                bail!(
+                    "the linker {MINGW} is missing; on Debian: apt-get install gcc-mingw-w64-x86-64"
+                );
+            }
+            Linker::Mingw
+        }
+        "macos" => Linker::Lld(zig?, macos::linker()?),
+        _ => Linker::Zig(zig?),
+    };
+    Ok(Builder { platform, toolchain: Toolchain::new(platform)?, linker })
+}
+
+impl Builder<'_> {
+    /// Builds the library.
+    pub fn build(&self) -> Result<PathBuf> {
+        let (platform, toolchain) = (self.platform, &self.toolchain);
+        let mut flags = Vec::new();
+        let command = match &self.linker {
+            Linker::Zig(zig) => with_zig(zig, toolchain, platform, "rustc"),
+            Linker::Mingw => {
+                flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into());
+                with_mingw(toolchain)
+            }
+            Linker::Lld(zig, linker) => {
+                flags.extend(macos::flags(linker));
+                let mut command = toolchain.cargo();
+                command.args(["--target", platform.triple]);
+                macos::configure(&mut command, zig)?;
+                command
+            }
+        };
+        flags.extend(self.std_remap());
+        compile(command, platform, toolchain.directory(), flags)
+    }
+
+    fn std_remap(&self) -> Option<OsString> {
+        self.toolchain.std.as_ref().map(|sources| remap(sources, "rust"))
+    }
+}
+
+/// The test of the panic guard on Linux on ARM, run by `emulator`; shares the standard library with the library.
+pub fn guard_on_arm(emulator: &str) -> Result<Command> {
+    let zig = zig()?;
+    let builder = builder(LINUX_ARM, Some(&zig))?;
+    let mut command = with_zig(&zig, &builder.toolchain, LINUX_ARM, "test");
     command
-        .current_dir(root())
-        .args(["rustc", "--target", &format!("{}.{}.{}", LINUX.triple, GLIBC.0, GLIBC.1)])
+        .args(["--release", "--package", "fmi-model", "--test", "guard"])
+        .args(LTO)
+        .arg("--target-dir")
+        .arg(target().join("fmu").join(builder.toolchain.directory()))
+        .env("CARGO_ENCODED_RUSTFLAGS", rustflags(builder.std_remap().into_iter().collect()))
+        .env("CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_RUNNER", emulator);
+    Ok(command)
+}
+
+fn with_mingw(toolchain: &Toolchain) -> Command {
+    let mut command = toolchain.cargo();
+    let linker = root().join("build/windows/relative-gcc.sh");
+    command
+        .args(["--target", WINDOWS.triple])
+        .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", linker)
+        .env("AHV_TARGET", target());
+    command
+}
+
+fn with_zig(
+    zig: &Environment,
+    toolchain: &Toolchain,
+    platform: Platform,
+    subcommand: &str,
+) -> Command {
+    let caches = target().join("fmu/zig");
+    let mut command =
+        toolchain.subcommand(Command::new(zig.programs.join("cargo-zigbuild")), subcommand);
+    let triple = match platform.os {
+        "linux" => format!("{}.{}.{}", platform.triple, GLIBC.0, GLIBC.1),
+        _ => platform.triple.to_string(),
+    };
+    command
+        .args(["--target", &triple])
         .env("CARGO_ZIGBUILD_PYTHON_PATH", &zig.python)
         .env("CARGO_ZIGBUILD_CACHE_DIR", caches.join("zigbuild"))
         .env("ZIG_GLOBAL_CACHE_DIR", caches.join("global"))
         .env("ZIG_LOCAL_CACHE_DIR", caches.join("local"));
-    compile(command, LINUX, LINUX.fmi2, Vec::new())
-}
-
-/// Builds the library for Windows.
-pub fn for_windows(toolchain: Toolchain) -> Result<PathBuf> {
-    let mut flags = vec!["-Clink-arg=-Wl,--no-insert-timestamp".into()];
-    flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
-    compile(toolchain.command, WINDOWS, WINDOWS.fmi2, flags)
+    command
 }
 
 /// Compiles the library for a platform.
@@ -66,11 +163,12 @@ pub fn compile_crate(
     directory: &str,
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
+    // Stripping for macOS needs a tool of LLVM and invalidates the signature.
+    let strip = if platform.os == "macos" { "none" } else { "symbols" };
     command
-        // With the C interface only, link-time optimisation makes the library 4 % smaller.
         .args(["--release", "--package", package, "--lib", "--crate-type", "cdylib"])
-        .args(["--config", "profile.release.lto='fat'"])
-        .args(["--config", "profile.release.strip='symbols'"])
+        .args(LTO)
+        .args(["--config", &format!("profile.release.strip='{strip}'")])
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")
         .arg(target().join("fmu").join(directory))

@@ -3,7 +3,7 @@
 use super::binary::{GLIBC, Glibc};
 use anyhow::{Context, Result, bail};
 use fmi_model::platform::PLATFORMS;
-pub use fmi_model::platform::{LINUX, Platform, WINDOWS};
+pub use fmi_model::platform::{LINUX, LINUX_ARM, MACOS, MACOS_ARM, Platform, WINDOWS};
 use std::env::consts::{ARCH, OS};
 use std::path::PathBuf;
 

@@ -2,12 +2,12 @@
 
 use super::library::{compile_crate, remap};
 use super::platform::Platform;
-use super::windows::{debian, debian_cargo, has_target, output_of};
+use super::toolchain::{Toolchain, output_of};
 use crate::describe::MODEL_IDENTIFIER;
-use crate::workspace::{cargo, root, shown, variable};
-use anyhow::{Context, Result, anyhow, bail};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use crate::workspace::{cargo, root, shown};
+use anyhow::{Context, Result, bail};
+use std::path::Path;
+use std::process::Stdio;
 
 /// The draft names the platform after a system that the component does not need: its core is compiled
 /// for none.
@@ -23,9 +23,6 @@ const WASM: Platform = Platform {
 /// Linker for Debian's compiler, from LLVM; those of rustup have their own.
 const LINKER: &str = "wasm-ld";
 
-const HOW_TO_GET: &str = "on Debian: apt-get install lld rustc-web cargo-web rust-web-src; with \
-                          rustup: rustup target add wasm32-unknown-unknown";
-
 /// Folder of the layered standard in an FMU.
 const EXTRA: &str = "extra/org.modelica.fmi-ls-wasm";
 
@@ -36,47 +33,27 @@ const MANIFEST: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
     fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
 "#;
 
-/// A Cargo that can build for WebAssembly, up to its subcommand's options.
-pub struct Toolchain {
-    command: Command,
-    /// Sources of the standard library, if it has to be compiled.
-    std: Option<PathBuf>,
-}
-
-/// The Cargo that runs this tool if it has the target, otherwise Debian's with the sources of the
-/// standard library.
-pub fn toolchain() -> Result<Toolchain> {
-    let own = PathBuf::from(variable("RUSTC").unwrap_or_else(|| "rustc".into()));
-    let mut toolchain = if has_target(&own, WASM.triple) {
-        let mut command = cargo();
-        command.arg("rustc");
-        Toolchain { command, std: None }
-    } else {
-        let missing = |what: &str| anyhow!("without WebAssembly: {what}; {HOW_TO_GET}");
-        let std = debian().map_err(|error| missing(&format!("{error:#}")))?;
-        if output_of(Path::new(LINKER), &["--version"]).is_none() {
-            return Err(missing(&format!("the linker {LINKER} is missing")));
-        }
-        let mut command = debian_cargo("std,panic_abort");
-        command.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", LINKER);
-        Toolchain { command, std: Some(std) }
-    };
-    toolchain.command.args(["--target", WASM.triple]);
-    Ok(toolchain)
-}
-
 /// Name of the component in an archive of FMI 3.0.
 pub fn name() -> String {
     format!("binaries/{}/{MODEL_IDENTIFIER}.{}", WASM.fmi3, WASM.ending)
 }
 
-/// Builds the component.
-pub fn component(toolchain: Toolchain) -> Result<Vec<u8>> {
+/// Builds the component, or says what is missing for it.
+pub fn component() -> Result<Vec<u8>> {
+    let toolchain = Toolchain::new(WASM)?;
+    let mut command = toolchain.cargo();
+    command.args(["--target", WASM.triple]);
     // Every runtime that has components has these instructions.
     let mut flags = vec!["-Ctarget-feature=+simd128".into()];
-    flags.extend(toolchain.std.map(|sources| remap(&sources, "rust")));
-    let module = compile_crate(toolchain.command, "ahv-wasm", "ahv_wasm", WASM, "wasm", flags)?;
-    wrap(&module)
+    if let Some(sources) = &toolchain.std {
+        if output_of(Path::new(LINKER), &["--version"]).is_none() {
+            bail!("the linker {LINKER} is missing; on Debian: apt-get install lld");
+        }
+        command.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", LINKER);
+        flags.push(remap(sources, "rust"));
+    }
+    let directory = toolchain.directory();
+    wrap(&compile_crate(command, "ahv-wasm", "ahv_wasm", WASM, directory, flags)?)
 }
 
 /// Wraps a core module into a component.
@@ -125,10 +102,10 @@ mod tests {
                 break root;
             }
         };
-        assert_eq!(root.name().as_ref(), b"fmi-ls:fmiLayeredStandardManifest");
+        assert_eq!(root.name().as_ref(), "fmi-ls:fmiLayeredStandardManifest");
         let value = |name: &str| root.try_get_attribute(name).unwrap().unwrap().value.into_owned();
-        assert_eq!(value("xmlns:fmi-ls"), b"http://fmi-standard.org/fmi-ls-manifest");
-        assert_eq!(value("fmi-ls:fmi-ls-name"), folder.as_bytes());
+        assert_eq!(value("xmlns:fmi-ls"), "http://fmi-standard.org/fmi-ls-manifest");
+        assert_eq!(value("fmi-ls:fmi-ls-name"), folder);
         for name in ["fmi-ls:fmi-ls-version", "fmi-ls:fmi-ls-description"] {
             assert!(!value(name).is_empty());
         }

@@ -41,7 +41,8 @@ pub const WINDOWS: Platform = Platform {
     arch: "x86_64",
     triple: "x86_64-pc-windows-gnu",
 };
-const MACOS: Platform = Platform {
+/// macOS on x86-64.
+pub const MACOS: Platform = Platform {
     fmi2: "darwin64",
     fmi3: "x86_64-darwin",
     ending: "dylib",
@@ -49,18 +50,28 @@ const MACOS: Platform = Platform {
     arch: "x86_64",
     triple: "x86_64-apple-darwin",
 };
+/// Linux on ARM64.
+pub const LINUX_ARM: Platform = Platform {
+    fmi2: "aarch64-linux",
+    fmi3: "aarch64-linux",
+    arch: "aarch64",
+    triple: "aarch64-unknown-linux-gnu",
+    ..LINUX
+};
+/// macOS on ARM64.
+pub const MACOS_ARM: Platform = Platform {
+    fmi2: "aarch64-darwin",
+    fmi3: "aarch64-darwin",
+    arch: "aarch64",
+    triple: "aarch64-apple-darwin",
+    ..MACOS
+};
 /// All platforms.
 pub const PLATFORMS: [Platform; 6] = [
     LINUX,
     WINDOWS,
     MACOS,
-    Platform {
-        fmi2: "aarch64-linux",
-        fmi3: "aarch64-linux",
-        arch: "aarch64",
-        triple: "aarch64-unknown-linux-gnu",
-        ..LINUX
-    },
+    LINUX_ARM,
     Platform {
         fmi2: "aarch64-windows",
         fmi3: "aarch64-windows",
@@ -68,13 +79,7 @@ pub const PLATFORMS: [Platform; 6] = [
         triple: "aarch64-pc-windows-msvc",
         ..WINDOWS
     },
-    Platform {
-        fmi2: "aarch64-darwin",
-        fmi3: "aarch64-darwin",
-        arch: "aarch64",
-        triple: "aarch64-apple-darwin",
-        ..MACOS
-    },
+    MACOS_ARM,
 ];
 
 impl Platform {

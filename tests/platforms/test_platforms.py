@@ -1,5 +1,5 @@
-"""The library for Windows computes the bits of the library for Linux, and each continues a flight
-of the other. One driver in C, compiled for both; Windows is played by wine."""
+"""The libraries for Windows and for Linux on ARM compute the bits of the library for Linux on
+x86-64, and each continues a flight of it. One driver in C, compiled for all, in wine and qemu."""
 
 from __future__ import annotations
 
@@ -27,38 +27,56 @@ class System(NamedTuple):
     """How a program is compiled and run."""
 
     binary: str
-    compiler: str
+    compiler: tuple[str, ...]
     options: tuple[str, ...]
     runner: tuple[str, ...]
 
 
+TARGET = REPOSITORY / "target"
+ZIG = (
+    str(TARGET / "zig" / "bin" / "python"),
+    "-m",
+    "ziglang",
+    "cc",
+    "-target",
+    "aarch64-linux-gnu.2.17",
+)
+ARM_LIBRARIES = "/usr/aarch64-linux-gnu"
 SYSTEMS = {
-    "linux": System("linux64/ahv.so", "cc", ("-ldl",), ()),
-    "windows": System("win64/ahv.dll", "x86_64-w64-mingw32-gcc", ("-static",), ("wine",)),
+    "linux": System("linux64/ahv.so", ("cc",), ("-ldl",), ()),
+    "windows": System("win64/ahv.dll", ("x86_64-w64-mingw32-gcc",), ("-static",), ("wine",)),
+    "arm": System("aarch64-linux/ahv.so", ZIG, ("-ldl",), ("qemu-aarch64", "-L", ARM_LIBRARIES)),
 }
+OTHERS = [system for system in SYSTEMS if system != "linux"]
+CONFIGURATIONS = (1, 2, 3)
+COEFFICIENT_SETS = (1, 2, 3)
 
 
 class Flights:
-    """The packaged FMU, and a driver for each system."""
+    """The packaged FMU, and drivers for Linux and another system."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, other: str) -> None:
         self.folder = folder
+        self.other = other
         path = os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")
         description = fmpy.read_model_description(str(path))
         self.guid = description.guid
         variables = description.modelVariables
         names = {variable.name: variable.valueReference for variable in variables}
         outputs = [v.name for v in variables if v.causality == "output"]
+        self.parameters = [names[name] for name in ("configuration", "aero")]
         self.references = [str(names[name]) for name in (*INPUTS, *outputs)]
         self.outputs = len(outputs)
         with zipfile.ZipFile(path) as archive:
-            for system, parts in SYSTEMS.items():
+            for system in ("linux", other):
+                parts = SYSTEMS[system]
                 archive.extract(f"binaries/{parts.binary}", folder)
                 self.compile(system, HERE / "driver.c", f"{system}.exe", parts.options)
-        options = ("-shared", "-ladvapi32")
-        self.compile("windows", HERE / "prng.c", "bcryptprimitives.dll", options)
+        if other == "windows":
+            options = ("-shared", "-ladvapi32")
+            self.compile("windows", HERE / "prng.c", "bcryptprimitives.dll", options)
         # The prefix is kept: making one takes longer than the tests.
-        prefix = REPOSITORY / "target" / "wine"
+        prefix = TARGET / "wine"
         prefix.mkdir(parents=True, exist_ok=True)
         # No installers, no messages of wine itself.
         quiet = {"WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
@@ -67,17 +85,35 @@ class Flights:
     def compile(self, system: str, source: Path, name: str, options: Sequence[str]) -> None:
         """Compiles one file."""
         headers = Path(fmpy.__file__).parent / "c-code"
-        command = [SYSTEMS[system].compiler, "-O1", "-Wall", f"-I{headers}", str(source)]
+        command = [*SYSTEMS[system].compiler, "-O1", "-Wall", f"-I{headers}", str(source)]
         subprocess.run([*command, "-o", str(self.folder / name), *options], check=True)
 
     def fly(
-        self, system: str, steps: np.ndarray, *, restore: str = "-", save: str = "-"
+        self,
+        system: str,
+        steps: np.ndarray,
+        *,
+        restore: str = "-",
+        save: str = "-",
+        values: Sequence[int] = (),
     ) -> np.ndarray:
-        """Outputs after each step as their 64 bits; steps are time, length, inputs."""
+        """Outputs after each step as their 64 bits.
+
+        Steps are time, length, inputs; values are those of configuration and coefficient set."""
         parts = SYSTEMS[system]
         program = [*parts.runner, str(self.folder / f"{system}.exe")]
         library = f"binaries/{parts.binary}"
-        arguments = [library, self.guid, restore, save, str(len(INPUTS)), *self.references]
+        pairs = zip(self.parameters, values, strict=False)
+        settings = ",".join(f"{reference}={value}" for reference, value in pairs)
+        arguments = [
+            library,
+            self.guid,
+            restore,
+            save,
+            settings,
+            str(len(INPUTS)),
+            *self.references,
+        ]
         rows = (" ".join(struct.pack(">d", x).hex() for x in row) for row in steps)
         result = subprocess.run(
             [*program, *arguments],
@@ -95,13 +131,13 @@ class Flights:
         return bits
 
 
-@pytest.fixture(scope="module")
-def flights(tmp_path_factory: pytest.TempPathFactory) -> Flights:
+@pytest.fixture(scope="module", params=OTHERS)
+def flights(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Flights:
     """Drivers and libraries, in a folder with a space."""
-    for system in SYSTEMS.values():
-        for program in (system.compiler, *system.runner):
+    for system in ("linux", request.param):
+        for program in (SYSTEMS[system].compiler[0], *SYSTEMS[system].runner[:1]):
             assert shutil.which(program), f"{program} is missing; see `cargo ahv test`"
-    return Flights(tmp_path_factory.mktemp("two systems"))
+    return Flights(tmp_path_factory.mktemp("two systems"), request.param)
 
 
 @pytest.fixture(scope="module")
@@ -120,22 +156,45 @@ def on_linux(flights: Flights, doublet: np.ndarray) -> np.ndarray:
     return flights.fly("linux", doublet)
 
 
-def test_verif_windows_computes_the_bits_of_linux(
+@pytest.fixture(scope="module")
+def random_steps() -> np.ndarray:
+    """Uneven steps with random inputs, too small to leave the region of validity."""
+    random = np.random.default_rng(20150181)
+    lengths = random.uniform(0.002, 0.03, 40)
+    times = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    inputs = random.uniform(-1.0, 1.0, (lengths.size, len(INPUTS))) * (2e-4, 0.02)
+    return np.column_stack([times, lengths, inputs])
+
+
+def test_verif_another_system_computes_the_bits_of_linux(
     flights: Flights, doublet: np.ndarray, on_linux: np.ndarray
 ) -> None:
     """Every output after every step is the same double; and the vehicle has moved."""
-    assert np.array_equal(flights.fly("windows", doublet), on_linux)
+    assert np.array_equal(flights.fly(flights.other, doublet), on_linux)
     assert (on_linux[0] != on_linux[-1]).sum() > flights.outputs // 2
+
+
+@pytest.mark.parametrize("aero", COEFFICIENT_SETS)
+@pytest.mark.parametrize("configuration", CONFIGURATIONS)
+def test_verif_every_vehicle_flies_random_manoeuvres_with_the_same_bits(
+    flights: Flights, random_steps: np.ndarray, configuration: int, aero: int
+) -> None:
+    """All configurations and coefficient sets; and they are different vehicles."""
+    values = (configuration, aero)
+    bits = flights.fly("linux", random_steps, values=values)
+    assert np.array_equal(flights.fly(flights.other, random_steps, values=values), bits)
+    default = flights.fly("linux", random_steps)
+    assert np.array_equal(bits, default) == (values == (3, 1))
 
 
 def test_verif_each_system_continues_a_flight_of_the_other(
     flights: Flights, doublet: np.ndarray, on_linux: np.ndarray
 ) -> None:
-    """Linux, Windows, Linux: the state travels as bytes, and the flight is that of Linux alone."""
+    """Linux, elsewhere, Linux: the state travels as bytes; the flight is that of Linux alone."""
     first, second, third = np.split(doublet, [70, 140])
     flown = [
         flights.fly("linux", first, save="first.state"),
-        flights.fly("windows", second, restore="first.state", save="second.state"),
+        flights.fly(flights.other, second, restore="first.state", save="second.state"),
         flights.fly("linux", third, restore="second.state"),
     ]
     assert np.array_equal(np.vstack(flown), on_linux)

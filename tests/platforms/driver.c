@@ -1,10 +1,11 @@
 /* Flies the library of an FMU on any platform; doubles go in and out as their 64 bits in hex.
  *
- * driver LIBRARY GUID RESTORE SAVE INPUTS REFERENCE...
+ * driver LIBRARY GUID RESTORE SAVE SETTINGS INPUTS REFERENCE...
  *
  * Standard input: one line per step, with time, length and INPUTS values for the first INPUTS
  * references. Standard output: one line per step, with the values of the other references.
- * RESTORE and SAVE are files with a serialised FMU state, or `-`. */
+ * RESTORE and SAVE are files with a serialised FMU state, or `-`. SETTINGS are integer parameters,
+ * `REFERENCE=VALUE,...`, or empty. */
 #define __USE_MINGW_ANSI_STDIO 1
 #include <inttypes.h>
 #include <stdarg.h>
@@ -74,7 +75,7 @@ static double next_value(int *end)
 
 int main(int count, char **arguments)
 {
-    if (count < 7)
+    if (count < 8)
         fail("reading the arguments");
 #ifdef _WIN32
     _setmode(_fileno(stdout), _O_BINARY);
@@ -88,6 +89,7 @@ int main(int count, char **arguments)
     LOAD(set_up, fmi2SetupExperiment);
     LOAD(enter, fmi2EnterInitializationMode);
     LOAD(leave, fmi2ExitInitializationMode);
+    LOAD(set_integer, fmi2SetInteger);
     LOAD(set_real, fmi2SetReal);
     LOAD(get_real, fmi2GetReal);
     LOAD(do_step, fmi2DoStep);
@@ -101,19 +103,26 @@ int main(int count, char **arguments)
     LOAD(free_instance, fmi2FreeInstance);
 
     const char *restore = arguments[3], *save = arguments[4];
-    size_t inputs = (size_t)atoi(arguments[5]), all = (size_t)count - 6;
+    size_t inputs = (size_t)atoi(arguments[6]), all = (size_t)count - 7;
     fmi2ValueReference references[MOST];
     fmi2Real values[MOST];
     if (all > MOST || inputs > all)
         fail("reading the references");
     for (size_t i = 0; i < all; i++)
-        references[i] = (fmi2ValueReference)atoi(arguments[6 + i]);
+        references[i] = (fmi2ValueReference)atoi(arguments[7 + i]);
 
     fmi2CallbackFunctions callbacks = {log_message, calloc, free, NULL, NULL};
     fmi2Component fmu =
         instantiate("ahv", fmi2CoSimulation, arguments[2], NULL, &callbacks, fmi2False, fmi2False);
     if (!fmu)
         fail("fmi2Instantiate");
+    for (char *part = strtok(arguments[5], ","); part; part = strtok(NULL, ",")) {
+        fmi2ValueReference reference;
+        fmi2Integer value;
+        if (sscanf(part, "%u=%d", &reference, &value) != 2)
+            fail("reading the settings");
+        CALL(set_integer(fmu, &reference, 1, &value));
+    }
     CALL(set_up(fmu, fmi2False, 0.0, 0.0, fmi2False, 0.0));
     CALL(enter(fmu));
     CALL(leave(fmu));
