@@ -126,6 +126,14 @@ pub enum Error {
         /// What is wrong, with value and limit.
         problem: String,
     },
+    /// A data file cannot be read.
+    #[error("{file} cannot be read: {problem}")]
+    File {
+        /// Its path.
+        file: String,
+        /// What hinders.
+        problem: String,
+    },
     /// A sensor is not on the body.
     #[error("a sensor at {station_m} m is off the body, which extends from 0 to {length_m} m")]
     SensorOffBody {

@@ -5,7 +5,7 @@ mod message;
 
 pub use message::Message;
 
-use crate::data::{DATA_FILES, OWN_FILES};
+use crate::data::{DATA_FILES, Data, OwnFiles};
 use crate::flight::{
     BeyondLimit, DEFAULT_TOLERANCE, Flight, INPUT_ORDER, Sample, Setup, Snapshot, TOLERANCES,
 };
@@ -15,7 +15,8 @@ use crate::vehicle::ALPHA;
 use fmi_model::identity::{fnv, hash_of_table};
 use fmi_model::instance::LARGEST;
 use fmi_model::{
-    About, Exchange, InputDerivatives, InternalStep, Model, Saving, Simulation, Tangent, Variable,
+    About, Exchange, FromResources, InputDerivatives, InternalStep, Model, Saving, Simulation,
+    Tangent, Variable,
 };
 
 impl Model for Setup {
@@ -24,7 +25,7 @@ impl Model for Setup {
 
     const ABOUT: About = About {
         identifier: "ahv",
-        description: DESCRIPTION,
+        description: "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing propellant",
         author: "The ahv authors",
         version: env!("CARGO_PKG_VERSION"),
         license: env!("CARGO_PKG_LICENSE"),
@@ -41,18 +42,36 @@ impl Model for Setup {
         let mut hash = hash_of_table(&Self::ABOUT, Self::VARIABLES);
         let mut file = 0;
         while file < DATA_FILES.len() {
-            if let Some(data) = DATA_FILES[file] {
-                hash = fnv(hash, data.packed);
-            }
+            hash = fnv(hash, DATA_FILES[file].packed);
             file += 1;
         }
         hash
     };
+    const RESOURCES: Option<FromResources<Self>> =
+        Some(|folder| Ok(Self::of(Data::with(&OwnFiles::in_folder(folder)?)?)));
     const DEFAULT_TOLERANCE: f64 = DEFAULT_TOLERANCE;
     const TOLERANCES: [f64; 2] = TOLERANCES;
 
     fn new() -> Result<Self, Message> {
         Ok(Self::new()?)
+    }
+
+    fn identity(&self) -> u128 {
+        match self.data().own_files.as_slice() {
+            [] => Self::IDENTITY,
+            _ => {
+                let table = hash_of_table(&Self::ABOUT, Self::VARIABLES);
+                self.data().packed().into_iter().fold(table, fnv)
+            }
+        }
+    }
+
+    fn description(&self) -> String {
+        let description = Self::ABOUT.description;
+        match self.data().own_files.as_slice() {
+            [] => description.to_string(),
+            files => format!("{description}; data: {}", files.join(", ")),
+        }
     }
 
     fn start(&self, time_s: f64, tolerance: f64) -> Result<Flight, Message> {
@@ -71,15 +90,6 @@ impl Model for Setup {
         }
     }
 }
-
-const DESCRIPTION: &str = if OWN_FILES.is_empty() {
-    "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing propellant"
-} else {
-    concat!(
-        "Longitudinal flight of a flexible air-breathing hypersonic vehicle with sloshing propellant; data: ",
-        env!("AHV_OWN_FILES")
-    )
-};
 
 impl Simulation for Flight {
     type Sample = Sample;

@@ -5,7 +5,7 @@ use crate::workspace::{MAX_TEXT_BYTES, read_text, root, shown, write};
 use ahv::flight::Setup;
 use anyhow::{Result, bail};
 use fmi_model::Model;
-use fmi_model::describe::model_description;
+use fmi_model::describe::model_description_of;
 use fmi_model::standard::Standard;
 use std::path::{Path, PathBuf};
 
@@ -55,7 +55,12 @@ fn compare(file: &Path, standard: Standard) -> Result<()> {
 
 /// The text of a file. It has no date, path or host name: the same sources give the same bytes.
 pub fn xml(standard: Standard) -> Result<String> {
-    Ok(model_description::<Setup>(standard)?)
+    xml_of(&Setup::new()?, standard)
+}
+
+/// The same of a vehicle with data of its own.
+pub fn xml_of(setup: &Setup, standard: Standard) -> Result<String> {
+    Ok(model_description_of(setup, standard)?)
 }
 
 #[cfg(test)]

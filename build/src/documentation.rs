@@ -4,7 +4,7 @@ use crate::workspace::{MAX_TEXT_BYTES, read_text, root};
 use ahv::flight::{Flight, Setup};
 use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
-use fmi_model::{Kind, Model, Role, Variable, identity::guid};
+use fmi_model::{Kind, Model, Role, Variable, identity::guid_of};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
@@ -62,8 +62,13 @@ const SUMMARY: &str = "\
 width=\"300\"/></p>
 <p>Inputs are elevator, fuel ratio and the vertical and horizontal velocity of the air; outputs are the
 rigid-body motion, the flexible and sloshing modes, the loads and the sensor readings. The fuselage is a
-free-free beam of finite elements; the sloshing masses of two tanks are part of its modes. The library contains
-all data: it reads no files, opens no windows and depends only on the system.</p>";
+free-free beam of finite elements; the sloshing masses of two tanks are part of its modes. The library
+opens no windows and depends only on the system.</p>";
+
+/// Where the numbers are.
+const BUILT_IN: &str = "<p>It contains all data and reads no files.</p>";
+const OWN: &str =
+    "<p>It reads the data of this vehicle from <code>resources</code>, and refuses others.</p>";
 
 const CITE: &str = "\
 <h2>How to cite</h2>
@@ -84,8 +89,7 @@ tool and its version; parameters, inputs, step size and tolerance; the log with 
 categories on (<code>fmi2SetDebugLogging</code>); the result and what you expected.</p>";
 
 /// The page, as valid XHTML; `machines` are the packaged platforms. The same sources give the same bytes.
-pub fn html(machines: &[String]) -> Result<String> {
-    let setup = Setup::new()?;
+pub fn html(setup: &Setup, machines: &[String]) -> Result<String> {
     let mut rows = String::new();
     // Inputs come first, whatever their value reference.
     let (inputs, others): (Vec<_>, Vec<_>) = Setup::VARIABLES
@@ -93,7 +97,7 @@ pub fn html(machines: &[String]) -> Result<String> {
         .enumerate()
         .partition(|(_, variable)| matches!(variable.role, Role::Input(_)));
     for (reference, variable) in inputs.into_iter().chain(others) {
-        variable_row(&mut rows, reference, variable, &setup)?;
+        variable_row(&mut rows, reference, variable, setup)?;
     }
     let same = if machines.len() > 1 {
         " All compute the same bits, and a serialised state of one can be restored on another."
@@ -101,9 +105,10 @@ pub fn html(machines: &[String]) -> Result<String> {
         ""
     };
     let machines = format!("<p>It runs on {}.{same}</p>", machines.join(" and on "));
+    let data = if setup.data().own_files.is_empty() { BUILT_IN } else { OWN };
     let limits = limits(&setup.fly()?);
     let changes = changes()?;
-    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid::<Setup>());
+    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid_of(setup.identity()));
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
@@ -112,7 +117,7 @@ pub fn html(machines: &[String]) -> Result<String> {
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
          2015, 81-88. FMI 2.0 for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
-         {SUMMARY}\n{machines}\n\
+         {SUMMARY}\n{data}\n{machines}\n\
          <h2>Use</h2>\n\
          <p>With default parameters the vehicle flies level and trimmed; <code>delta_e</code> and \
          <code>phi</code> are deviations from trim. It is unstable in pitch: without a controller \
@@ -190,15 +195,16 @@ fn variable_row(
         Kind::Real(unit) => unit.name,
         Kind::Integer | Kind::Boolean | Kind::Enumeration(..) => "",
     };
-    let start = variable.start(setup).map_or(String::new(), |value| match variable.kind {
-        Kind::Real(_) | Kind::Integer => plain(value),
-        Kind::Boolean => (value != 0.0).to_string(),
-        Kind::Enumeration(_, items) => {
-            let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);
-            item.map_or(String::new(), |(name, ..)| name.to_string())
-        }
-    });
-    let range = match (variable.kind, variable.range) {
+    let start =
+        variable.start(setup).map_or(String::new(), |value| match variable.kind_in(setup) {
+            Kind::Real(_) | Kind::Integer => plain(value),
+            Kind::Boolean => (value != 0.0).to_string(),
+            Kind::Enumeration(_, items) => {
+                let item = items.iter().find(|(_, number, _)| f64::from(*number) == value);
+                item.map_or(String::new(), |(name, ..)| name.to_string())
+            }
+        });
+    let range = match (variable.kind_in(setup), variable.range) {
         (Kind::Enumeration(_, items), _) => {
             let items = items.iter().map(|(name, number, _)| format!("{number} {name}"));
             items.collect::<Vec<_>>().join("<br/>")
@@ -223,7 +229,7 @@ mod tests {
 
     #[test]
     fn page_is_well_formed_and_names_every_variable() {
-        let page = super::html(&["Linux".to_string()]).unwrap();
+        let page = super::html(&Setup::new().unwrap(), &["Linux".to_string()]).unwrap();
         let mut reader = quick_xml::Reader::from_str(&page);
         while !matches!(reader.read_event().unwrap(), quick_xml::events::Event::Eof) {}
         for variable in Setup::VARIABLES {
@@ -233,7 +239,8 @@ mod tests {
 
     #[test]
     fn page_cites_the_paper_as_the_citation_file_does_and_tells_changes() {
-        let page = super::html(&["Linux".to_string()]).unwrap().replace('\n', " ");
+        let page =
+            super::html(&Setup::new().unwrap(), &["Linux".to_string()]).unwrap().replace('\n', " ");
         let citation = include_str!("../../CITATION.cff");
         for key in ["    title: ", "    doi: ", "    journal: "] {
             let (_, rest) = citation.split_once(&format!("\n{key}")).unwrap();

@@ -10,7 +10,7 @@ use crate::package::Targets;
 use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
-use crate::workspace::{Files, can_write, root, shown, target, write_together};
+use crate::workspace::{Files, can_write, root, shown, write_together};
 use crate::{package, plot, simulation};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
@@ -20,17 +20,23 @@ use std::path::Path;
 pub const STEP: f64 = 0.01;
 
 pub fn run(options: &Fly) -> Result<()> {
+    let own = &options.own_vehicle;
     let file = match &options.fmu {
         Some(file) => file.clone(),
-        None if options.host_only => package::build_default(Targets::Host)?,
-        None => package::build_default(Targets::AsExisting)?,
+        None => {
+            let targets = if options.host_only { Targets::Host } else { Targets::AsExisting };
+            match own.is_given() {
+                true => package::own_default(own, targets)?,
+                false => package::build_default(targets)?,
+            }
+        }
     };
     let file = match options.fmi {
         Some(version) if options.fmu.is_none() => package::of(version.into(), &file),
         _ => file,
     };
     let fmu = Fmu::open(&file)?;
-    let directory = options.output.clone().unwrap_or_else(|| target().join("flight"));
+    let directory = options.output.clone().unwrap_or_else(|| own.results().join("flight"));
     can_write(&directory.join("flight.csv"))?;
     let model = &fmu.model;
     let default = &model.experiment;

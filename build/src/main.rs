@@ -3,9 +3,7 @@
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
 
 use ahv_tool::cli::{Cli, Command};
-use ahv_tool::{
-    console, describe, fly, modes, own_vehicle, package, poles, research, test, trim, workspace,
-};
+use ahv_tool::{console, describe, fly, modes, package, poles, research, test, trim, workspace};
 use anyhow::Result;
 use clap::Parser;
 use std::process::ExitCode;
@@ -16,9 +14,6 @@ fn main() -> ExitCode {
 
 fn run(command: &Command) -> Result<ExitCode> {
     workspace::locate()?;
-    if let Some(code) = own_vehicle::run(command)? {
-        return Ok(code);
-    }
     match command {
         Command::Describe(options) => describe::run(options),
         Command::Package(options) => package::run(options),

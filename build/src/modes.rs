@@ -2,7 +2,7 @@
 
 use crate::cli;
 use crate::table::{number, row, table};
-use crate::trim::{configuration, model, setup};
+use crate::trim::{configuration, setup};
 use ahv::data::Data;
 use ahv::fmu::Message;
 use ahv::structure::{FLEXIBLE, Modes};
@@ -12,8 +12,8 @@ use serde_json::json;
 use std::f64::consts::TAU;
 
 /// The eigenproblem and its frequencies as JSON.
-pub fn eigenproblem_json(options: &VehicleOptions) -> Result<serde_json::Value> {
-    let (beam, oscillators) = structure(&Data::embedded()?, options)?;
+pub fn eigenproblem_json(data: &Data, options: &VehicleOptions) -> Result<serde_json::Value> {
+    let (beam, oscillators) = structure(data, options)?;
     let masses: Vec<_> = oscillators
         .iter()
         .map(|o| json!({ "node": o.node, "mass": o.mass, "stiffness": o.stiffness }))
@@ -42,19 +42,19 @@ pub fn ordinal(index: usize) -> &'static str {
 
 pub fn run(options: &cli::Modes) -> Result<()> {
     let cli::Modes { analyse: options, elements } = options;
-    let setup = setup(&model()?, &options.set)?;
+    let setup = setup(&options.own_vehicle, &options.set)?;
     let flight = setup.fly().map_err(Message)?;
     let vehicle = flight.vehicle();
     let count = vehicle.modes;
     let modes = match count {
         0 => Modes::default(),
         _ => {
-            let (beam, oscillators) = structure(&Data::embedded()?, &setup.parameters.options)?;
+            let (beam, oscillators) = structure(setup.data(), &setup.parameters.options)?;
             Modes::solve(&beam, &oscillators)?
         }
     };
     if *elements {
-        outln!("{}", eigenproblem_json(&setup.parameters.options)?)?;
+        outln!("{}", eigenproblem_json(setup.data(), &setup.parameters.options)?)?;
         return Ok(());
     }
     let omega = &modes.omega_rad_per_s;

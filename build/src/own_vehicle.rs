@@ -1,17 +1,14 @@
-//! Commands with the user's own vehicle: rebuilds the tool with the user's data and runs the command again.
+//! The user's own vehicle: data files that a command reads in place of the built-in ones.
 
-use crate::cli::Command;
-use crate::workspace::{MAX_DATA_BYTES, cargo, read_text, root, shown, target, variable};
-use ahv::data::{AeroData, DataFile, VehicleData};
-use anyhow::{Context, Result};
+use crate::workspace::{MAX_DATA_BYTES, read_text, shown, target};
+use ahv::data::{Data, OwnFile, OwnFiles};
+use ahv::flight::Setup;
+use anyhow::Result;
 use clap::Args;
-use std::env;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
-/// The user's data files. The tool and the library are built with them in target/own, where results are
-/// written too.
-#[derive(Debug, Args)]
+/// The user's data files. Results with them are written to target/own.
+#[derive(Debug, Default, Args)]
 #[command(next_help_heading = "Your own vehicle")]
 pub struct OwnVehicle {
     /// Geometry, mass, beam, tanks: a file like src/data/vehicle.toml
@@ -23,54 +20,36 @@ pub struct OwnVehicle {
     pub coefficients: Option<PathBuf>,
 }
 
-/// Environment variables that pass the files to the build script.
-const VEHICLE: &str = "AHV_VEHICLE";
-const COEFFICIENTS: &str = "AHV_COEFFICIENTS";
+impl OwnVehicle {
+    /// Whether there are any.
+    pub fn is_given(&self) -> bool {
+        self.vehicle.is_some() || self.coefficients.is_some()
+    }
 
-/// The data files of a command that takes them.
-fn data_files(command: &Command) -> Option<&OwnVehicle> {
-    match command {
-        Command::Package(options) => Some(&options.own_vehicle),
-        Command::Fly(options) => Some(&options.own_vehicle),
-        Command::Trim(options) => Some(&options.own_vehicle),
-        Command::Modes(options) => Some(&options.analyse.own_vehicle),
-        Command::Poles(options) => Some(&options.analyse.own_vehicle),
-        _ => None,
+    /// What the files hold.
+    pub fn files(&self) -> Result<OwnFiles> {
+        Ok(OwnFiles {
+            vehicle: self.vehicle.as_deref().map(read).transpose()?,
+            coefficients: self.coefficients.as_deref().map(read).transpose()?,
+        })
+    }
+
+    /// Default parameters of the vehicle.
+    pub fn setup(&self) -> Result<Setup> {
+        setup(&self.files()?)
+    }
+
+    /// Where results are written.
+    pub fn results(&self) -> PathBuf {
+        if self.is_given() { target().join("own") } else { target() }
     }
 }
 
-/// Checks the user's files and runs the command with them. Returns `None` without such files, or if this
-/// tool was built with them.
-pub fn run(command: &Command) -> Result<Option<ExitCode>> {
-    let Some(own) = data_files(command) else { return Ok(None) };
-    let files = [
-        (VEHICLE, &own.vehicle, check::<VehicleData> as fn(&Path) -> Result<PathBuf>),
-        (COEFFICIENTS, &own.coefficients, check::<AeroData>),
-    ];
-    let given = |name| variable(name).is_some();
-    if given(VEHICLE) || given(COEFFICIENTS) || files.iter().all(|(_, file, _)| file.is_none()) {
-        return Ok(None);
-    }
-    let mut command = cargo();
-    command
-        .args(["run", "--profile", "tool", "--package", "ahv", "--manifest-path"])
-        .arg(root().join("Cargo.toml"))
-        .arg("--")
-        .args(env::args_os().skip(1))
-        .current_dir(env::current_dir()?)
-        .env("CARGO_TARGET_DIR", target().join("own"));
-    for (name, file, check) in files {
-        if let Some(file) = file {
-            command.env(name, check(file)?);
-        }
-    }
-    errln!("building with your data; the first build takes some minutes");
-    let status = command.status().context("cannot start cargo")?;
-    Ok(Some(if status.success() { ExitCode::SUCCESS } else { ExitCode::FAILURE }))
+/// Default parameters of the vehicle with these files.
+pub fn setup(files: &OwnFiles) -> Result<Setup> {
+    Ok(Setup::of(Data::with(files)?))
 }
 
-/// Checks a data file and returns its absolute path.
-fn check<T: DataFile>(file: &Path) -> Result<PathBuf> {
-    T::parse(&shown(file), &read_text(file, MAX_DATA_BYTES)?)?;
-    file.canonicalize().with_context(|| format!("cannot find {}", shown(file)))
+fn read(file: &Path) -> Result<OwnFile> {
+    Ok(OwnFile { name: shown(file), text: read_text(file, MAX_DATA_BYTES)? })
 }

@@ -15,8 +15,10 @@ mod wasm;
 use crate::cli::Package;
 use crate::describe::{self, MODEL_IDENTIFIER};
 use crate::fmu::Fmu;
-use crate::workspace::{MAX_BINARY_BYTES, can_write, read, root, shown, target, write};
+use crate::own_vehicle::{self, OwnVehicle};
+use crate::workspace::{MAX_BINARY_BYTES, can_write, read, root, shown, write};
 use crate::{documentation, licenses};
+use ahv::data::OwnFiles;
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
@@ -49,12 +51,38 @@ pub fn run(options: &Package) -> Result<()> {
         (_, true) => Targets::All,
         _ => Targets::Possible,
     };
-    let output = options.output.clone().unwrap_or_else(|| default_output(targets));
+    let own = &options.own_vehicle;
+    let output = options.output.clone().unwrap_or_else(|| own_output(own, targets));
     can_write(&output)?;
-    if options.library.is_empty() {
-        return build(&output, targets);
+    let files = own.files()?;
+    own_vehicle::setup(&files)?;
+    if !options.library.is_empty() {
+        return package(Libraries::given(&options.library)?, &files, &output);
     }
-    package(Libraries::given(&options.library)?, &output)
+    if own.is_given() { with_data(&files, &output, targets) } else { build(&output, targets) }
+}
+
+/// The package of the user's vehicle: the libraries of the existing one, which is built first if it is not there
+/// or not of these sources, with other data.
+fn with_data(files: &OwnFiles, output: &Path, targets: Targets) -> Result<()> {
+    let built_in = default_output(targets);
+    if targets == Targets::All || !is_current(&built_in) {
+        build(&built_in, targets)?;
+    }
+    package(Libraries::of_package(&built_in)?, files, output)
+}
+
+/// Whether a file is the package of the built-in vehicle, as the sources describe it.
+fn is_current(file: &Path) -> bool {
+    let found = libraries::entry(file, "modelDescription.xml");
+    matches!((found, describe::xml(Standard::Fmi2)), (Ok(found), Ok(xml)) if found == xml.as_bytes())
+}
+
+/// Packages the user's vehicle at its default path.
+pub fn own_default(own: &OwnVehicle, targets: Targets) -> Result<PathBuf> {
+    let output = own_output(own, targets);
+    with_data(&own.files()?, &output, targets)?;
+    Ok(output)
 }
 
 /// Builds and packages.
@@ -63,15 +91,15 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
     if targets == Targets::All && !libraries.missing.is_empty() {
         bail!("{}", libraries.missing.join("\n"));
     }
-    package(libraries, output)
+    package(libraries, &OwnFiles::default(), output)
 }
 
 /// Writes the FMUs; prints their platforms and dependencies.
-fn package(libraries: Libraries, output: &Path) -> Result<()> {
+fn package(libraries: Libraries, own: &OwnFiles, output: &Path) -> Result<()> {
     let host = host()?;
     let mut flown = None;
     for standard in Standard::ALL {
-        let mut files = contents(&libraries, standard)?;
+        let mut files = contents(&libraries, own, standard)?;
         if libraries.get(host).is_some() {
             let found = match flown.take() {
                 Some(found) => found,
@@ -107,8 +135,13 @@ pub fn can_build_for(platform: Platform) -> Result<()> {
 
 /// Default path of the FMU. A package for this machine only does not replace one for all platforms.
 pub fn default_output(targets: Targets) -> PathBuf {
+    own_output(&OwnVehicle::default(), targets)
+}
+
+/// The same of the user's vehicle.
+fn own_output(own: &OwnVehicle, targets: Targets) -> PathBuf {
     let kind = if targets == Targets::Host { "-host" } else { "" };
-    target().join(format!("{MODEL_IDENTIFIER}{kind}.fmu"))
+    own.results().join(format!("{MODEL_IDENTIFIER}{kind}.fmu"))
 }
 
 /// Where the FMU of a standard is written if that of FMI 2.0 is written to `output`.
@@ -129,10 +162,19 @@ pub fn component(output: &Path) -> Result<Vec<u8>> {
 /// Files of the FMU, by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
-fn contents(libraries: &Libraries, standard: Standard) -> Result<Files> {
+fn contents(libraries: &Libraries, own: &OwnFiles, standard: Standard) -> Result<Files> {
+    let setup = own_vehicle::setup(own)?;
     let mut files = Files::new();
-    files.insert("modelDescription.xml".to_string(), describe::xml(standard)?.into_bytes());
-    files.extend(licenses::collect()?);
+    let xml = describe::xml_of(&setup, standard)?;
+    files.insert("modelDescription.xml".to_string(), xml.into_bytes());
+    for (name, file) in
+        [(OwnFiles::VEHICLE, &own.vehicle), (OwnFiles::COEFFICIENTS, &own.coefficients)]
+    {
+        if let Some(file) = file {
+            files.insert(format!("resources/{name}"), file.text.clone().into_bytes());
+        }
+    }
+    files.extend(libraries.licenses.clone().map_or_else(licenses::collect, Ok)?);
     files.extend(terminals::files()?);
     if standard == Standard::Fmi2 {
         files.insert("model.png".to_string(), icon("vehicle")?);
@@ -143,7 +185,7 @@ fn contents(libraries: &Libraries, standard: Standard) -> Result<Files> {
         .iter()
         .map(|library| platform::machines(library.platform, library.binary.glibc))
         .collect();
-    let page = documentation::html(&machines)?;
+    let page = documentation::html(&setup, &machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
 }

@@ -3,7 +3,7 @@
 use crate::cli::Poles;
 use crate::modes::ordinal;
 use crate::table::{NOISE, number, row, table};
-use crate::trim::{configuration, model, setup};
+use crate::trim::{configuration, setup};
 use ahv::dynamics::linear::LinearModel;
 use ahv::flight::Setup;
 use ahv::fmu::Message;
@@ -69,7 +69,7 @@ fn linearise_all(options: &Poles) -> Result<Vec<Linearised>> {
 fn linearise(options: &Poles, configured: Option<&str>) -> Result<Linearised> {
     let mut set = crate::cli::Set { settings: options.analyse.set.settings.clone() };
     set.settings.extend(configured.map(|name| format!("configuration={name}")));
-    let setup = setup(&model()?, &set)?;
+    let setup = setup(&options.analyse.own_vehicle, &set)?;
     let flight = setup.fly().map_err(Message)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let linear = [LinearModel::new, LinearModel::with_imu_gamma]

@@ -2,6 +2,7 @@
 
 use crate::cli::{Analyse, Set};
 use crate::model_description::ModelDescription;
+use crate::own_vehicle::OwnVehicle;
 use crate::table::{number, row, table};
 use crate::{describe, settings};
 use ahv::flight::{Flight, Setup};
@@ -12,20 +13,17 @@ use fmi_model::standard::Standard;
 use fmi_model::table::find;
 use serde_json::json;
 
-/// The model description, against which `--set` is checked as in `fly`.
-pub fn model() -> Result<ModelDescription> {
-    ModelDescription::parse(&describe::xml(Standard::Fmi2)?)
+/// A flight of the built-in vehicle with the parameters set on the command line.
+pub fn flight(set: &Set) -> Result<Flight> {
+    Ok(setup(&OwnVehicle::default(), set)?.fly().map_err(Message)?)
 }
 
-/// A flight with the parameters set on the command line.
-pub fn flight(model: &ModelDescription, set: &Set) -> Result<Flight> {
-    Ok(setup(model, set)?.fly().map_err(Message)?)
-}
-
-/// The set-up with the parameters set on the command line.
-pub fn setup(model: &ModelDescription, set: &Set) -> Result<Setup> {
-    let mut setup = Setup::new()?;
-    for setting in settings::parse(model, &set.settings)? {
+/// The set-up with the parameters set on the command line, which are checked against the model description as in
+/// `fly`.
+pub fn setup(own: &OwnVehicle, set: &Set) -> Result<Setup> {
+    let mut setup = own.setup()?;
+    let model = ModelDescription::parse(&describe::xml_of(&setup, Standard::Fmi2)?)?;
+    for setting in settings::parse(&model, &set.settings)? {
         let name = &setting.variable.name;
         let variable = find::<Setup>(name).ok_or_else(|| anyhow!("no variable {name}"))?;
         variable.set(&mut setup, setting.value)?;
@@ -39,8 +37,7 @@ pub fn configuration(setup: &Setup) -> String {
 }
 
 pub fn run(options: &Analyse) -> Result<()> {
-    let model = model()?;
-    let setup = setup(&model, &options.set)?;
+    let setup = setup(&options.own_vehicle, &options.set)?;
     let flight = setup.fly().map_err(Message)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let loads = vehicle.loads(&trim.state, &trim.control);

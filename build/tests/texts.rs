@@ -57,12 +57,11 @@ fn the_table_in_the_readme_names_what_can_be_set_and_read_and_nothing_else() {
                 Role::LocalState(_) | Role::Derivative(_) => false,
             };
             assert!(fits, "{} is no {}: {:?}", variable.name, cells[2], variable.role);
-            if let Kind::Enumeration(_, items) = variable.kind
+            if let Kind::Enumeration(_, items) = variable.kind_in(&Setup::new().unwrap())
                 && cells[1].matches('`').count() == 2
             {
-                let own = |name: &str| name == "own";
-                let items = items.iter().filter(|(name, ..)| !own(name));
-                let items: Vec<_> = items.map(|(name, n, _)| format!("{n} {name}")).collect();
+                let items: Vec<_> =
+                    items.iter().map(|(name, n, _)| format!("{n} {name}")).collect();
                 assert!(cells[3].contains(&items.join(", ")), "{}: {items:?}", variable.name);
             }
             seen.push(variable.name);
@@ -126,7 +125,7 @@ fn the_readme_states_the_limits_and_the_flight_of_the_code() {
 
 #[test]
 fn the_documentation_names_the_methods_and_orders_of_the_code() {
-    let page = flat(&documentation::html(&["Linux".to_string()]).unwrap());
+    let page = flat(&documentation::html(&Setup::new().unwrap(), &["Linux".to_string()]).unwrap());
     // A method of order p integrates every power of the time below p exactly.
     let exact = |power: &i32| {
         let sum: f64 = DOP853.b.iter().zip(&DOP853.c).map(|(b, c)| b * c.powi(power - 1)).sum();

@@ -5,9 +5,9 @@
 pub struct Embedded {
     /// Name, for messages.
     pub name: &'static str,
-    /// The file itself.
+    /// The file itself. Not in the FMU, whose code does not read it.
     pub text: &'static str,
-    /// Its data in postcard format.
+    /// Its packed form.
     pub packed: &'static [u8],
 }
 
@@ -32,22 +32,5 @@ pub const XU2015: Embedded = embedded!("aero/xu2015");
 pub const PARKER2007: Embedded = embedded!("aero/parker2007");
 /// Coefficient set fitted to the first-principles model.
 pub const SHOCK_EXPANSION: Embedded = embedded!("aero/shock_expansion");
-/// The user's coefficient set, if the library was built with one.
-pub const OWN: Option<Embedded> = own();
-
-/// All data files.
-pub const DATA_FILES: [Option<Embedded>; 6] =
-    [Some(VEHICLE), Some(EARTH), Some(XU2015), Some(PARKER2007), Some(SHOCK_EXPANSION), OWN];
-
-#[cfg(own_coefficients)]
-const fn own() -> Option<Embedded> {
-    Some(embedded!("aero/own"))
-}
-
-#[cfg(not(own_coefficients))]
-const fn own() -> Option<Embedded> {
-    None
-}
-
-/// Names of the user's data files in this library; empty for the standard vehicle.
-pub const OWN_FILES: &str = env!("AHV_OWN_FILES");
+/// All data files, in the order of [`super::Data::packed`].
+pub const DATA_FILES: [Embedded; 5] = [VEHICLE, EARTH, XU2015, PARKER2007, SHOCK_EXPANSION];

@@ -1,15 +1,14 @@
 //! Contents of the data files. The build script reads them with the same types.
 
 use super::quantity::Quantity;
+use super::reader::fields;
 use super::shape::{EngineData, Outline};
-use serde::{Deserialize, Serialize};
 
 /// Flexible modes for which a file gives a damping ratio.
 const FLEXIBLE: usize = 3;
 
 /// `vehicle.toml`.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct VehicleData {
     /// Outer shape.
     pub geometry: Geometry,
@@ -30,8 +29,7 @@ pub struct VehicleData {
 }
 
 /// Lengths along the body, from the nose aft.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Geometry {
     /// Overall length, m.
     pub length_m: Quantity,
@@ -42,8 +40,7 @@ pub struct Geometry {
 }
 
 /// Mass of the full vehicle and its propellant.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Mass {
     /// Mass per length ahead of the joint, kg/m^2.
     pub fore_beam_kg_per_m2: Quantity,
@@ -58,8 +55,7 @@ pub struct Mass {
 }
 
 /// The free-free beam.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct BeamData {
     /// Number of equal elements.
     pub elements: Quantity<u32>,
@@ -70,8 +66,7 @@ pub struct BeamData {
 }
 
 /// One tank.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct TankData {
     /// `fore` or `aft`.
     pub name: String,
@@ -88,8 +83,7 @@ pub struct TankData {
 }
 
 /// Limits of the controls.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Actuation {
     /// Largest elevator deflection in either direction, rad.
     pub delta_e_limit_rad: Quantity,
@@ -98,8 +92,7 @@ pub struct Actuation {
 }
 
 /// Start values of the parameters.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Defaults {
     /// Fuel fraction.
     pub fuel_fraction: Quantity,
@@ -118,8 +111,7 @@ pub struct Defaults {
 }
 
 /// `earth.toml`.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct EarthData {
     /// Gravity field.
     pub earth: Earth,
@@ -128,8 +120,7 @@ pub struct EarthData {
 }
 
 /// Round, non-rotating earth.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Earth {
     /// Gravity at sea level, m/s^2.
     pub gravity_m_per_s2: Quantity,
@@ -138,8 +129,7 @@ pub struct Earth {
 }
 
 /// US Standard Atmosphere 1976.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct AirData {
     /// Specific gas constant, J/(kg K).
     pub gas_constant_j_per_kg_k: Quantity,
@@ -158,8 +148,7 @@ pub struct AirData {
 }
 
 /// `aero/*.toml`: a coefficient set of eq. (4).
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct AeroData {
     /// Reference lengths.
     pub reference: Reference,
@@ -186,8 +175,7 @@ pub struct AeroData {
 }
 
 /// Reference lengths and the incidence of the elastic derivatives.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Reference {
     /// Area per metre of width, m.
     pub area_m2_per_m: Quantity,
@@ -209,8 +197,7 @@ pub struct Reference {
 }
 
 /// Inertia and damping of a coefficient set.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Inertia {
     /// Pitch inertia of the full vehicle, kg m^2 per metre of width.
     pub i_yy_kg_m2_per_m: Quantity,
@@ -221,8 +208,7 @@ pub struct Inertia {
 }
 
 /// A polynomial in incidence and elevator deflection; omitted coefficients are zero.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct PolynomialData {
     /// Constant term.
     pub constant: Option<Quantity>,
@@ -243,8 +229,7 @@ pub struct PolynomialData {
 }
 
 /// Lower and upper limits of validity.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct EnvelopeData {
     /// Incidence, rad.
     pub alpha_rad: Quantity<[f64; 2]>,
@@ -254,4 +239,37 @@ pub struct EnvelopeData {
     pub altitude_m: Quantity<[f64; 2]>,
     /// Smallest equivalence ratio that can be added before the burner chokes; no limit if omitted.
     pub choking_margin: Option<Quantity>,
+}
+
+fields! {
+    VehicleData { geometry, mass, beam, tank, actuation, outline, engine, default }
+    Geometry { length_m, fore_body_m, nacelle_m }
+    Mass {
+        fore_beam_kg_per_m2, aft_beam_kg_per_m2, beam_joint_m, propellant_fraction,
+        residual_fraction,
+    }
+    BeamData { elements, stiffness_station_m, stiffness_n_m2_per_m }
+    TankData { name, centre_m, length_m, share, bay_length_m, depth_full_m }
+    Actuation { delta_e_limit_rad, phi_limit }
+    Defaults {
+        fuel_fraction, slosh_damping, slosh_frequency_rad_per_s, mach, altitude_m, imu_station_m,
+        probe_station_m,
+    }
+    EarthData { earth, air }
+    Earth { gravity_m_per_s2, radius_m }
+    AirData {
+        gas_constant_j_per_kg_k, heat_capacity_ratio, sea_level_pressure_pa,
+        sea_level_temperature_k, layer_base_m, layer_lapse_k_per_m, top_m,
+    }
+    AeroData {
+        reference, inertia, lift, drag, moment, thrust, thrust_phi, lift_phi, drag_phi, moment_phi,
+        envelope,
+    }
+    Reference {
+        area_m2_per_m, chord_m, moment_centre_m, thrust_arm_m, elastic_alpha_rad, elastic_scale,
+        elastic_delta_e_rad, gamma_offset_m,
+    }
+    Inertia { i_yy_kg_m2_per_m, structural_damping, mass_centre_shift_m }
+    PolynomialData { constant, alpha, alpha2, alpha3, delta_e, delta_e2, delta_e3, alpha_delta_e }
+    EnvelopeData { alpha_rad, mach, altitude_m, choking_margin }
 }

@@ -1,8 +1,7 @@
-//! Unit and range of each number, from the ending of its key. The build script applies the same check.
+//! Unit and range of each number, from the ending of its key.
 
 use crate::short::short;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
-use toml::{Table, Value};
 
 /// Ending of a key, unit and range; the first match applies. The ranges exceed those of any vehicle, and
 /// the equations are finite within them. Relations between numbers are checked in `validate`.
@@ -65,44 +64,19 @@ const KINDS: [(&str, &str, [f64; 2]); 48] = [
     ("mach", "1", [0.1, 30.0]),
 ];
 
-/// Path and problem of the first number of a file with the wrong unit or out of range. Entries that are
-/// not numbers with units are left to deserialisation.
-pub fn first_problem(table: &Table) -> Option<(String, String)> {
-    table.iter().find_map(|(key, value)| match value {
-        Value::Table(number) if number.contains_key("value") => {
-            Some((key.clone(), problem(key, number)?))
-        }
-        Value::Table(inner) => nested(key, inner),
-        Value::Array(rows) => rows.iter().filter_map(Value::as_table).find_map(|row| {
-            let name = row.get("name").and_then(Value::as_str).unwrap_or_default();
-            nested(&format!("{key}.{name}"), row)
-        }),
-        _ => None,
-    })
-}
-
-fn nested(key: &str, table: &Table) -> Option<(String, String)> {
-    first_problem(table).map(|(path, problem)| (format!("{key}.{path}"), problem))
-}
-
-/// Problem of a number, or of the first one in a list.
-fn problem(key: &str, number: &Table) -> Option<String> {
+/// What is wrong with a number, by its key and unit.
+pub fn problem(key: &str, unit: &str, value: f64) -> Option<String> {
     let known = KINDS.iter().find(|(ending, ..)| key.ends_with(ending));
     let Some((_, promised, [min, max])) = known else {
         return Some("unknown quantity".into());
     };
-    let unit = number.get("unit").and_then(Value::as_str)?;
     if unit != *promised {
         return Some(format!("the unit is {unit}, must be {promised}"));
     }
-    let values = number.get("value")?;
-    let all = values.as_array().map_or(std::slice::from_ref(values), Vec::as_slice);
-    let value = all.iter().filter_map(float).find(|value| !(*min..=*max).contains(value))?;
+    if (*min..=*max).contains(&value) {
+        return None;
+    }
     let unit = if unit == "1" { String::new() } else { format!(" {unit}") };
     let [value, min, max] = [value, *min, *max].map(short);
     Some(format!("{value} must lie in [{min}, {max}]{unit}"))
-}
-
-fn float(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }

@@ -1,11 +1,10 @@
 //! Outer shape and engine of the first-principles model.
 
 use super::quantity::Quantity;
-use serde::{Deserialize, Serialize};
+use super::reader::fields;
 
 /// Outer shape; heights are above the nose, angles against the axis.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Outline {
     /// Fore-body, lower side, below the axis, rad.
     pub lower_angle_rad: Quantity,
@@ -22,8 +21,7 @@ pub struct Outline {
 }
 
 /// Duct, burner and fuel.
-#[derive(Debug, Clone, Deserialize, Serialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct EngineData {
     /// Height of the duct at inlet and exit, m.
     pub duct_height_m: Quantity,
@@ -35,4 +33,15 @@ pub struct EngineData {
     pub stoichiometric_ratio: Quantity,
     /// Part of the heating value that is released.
     pub combustion_efficiency: Quantity,
+}
+
+fields! {
+    Outline {
+        lower_angle_rad, upper_angle_rad, moment_height_m, elevator_station_m, elevator_height_m,
+        elevator_area_m2_per_m,
+    }
+    EngineData {
+        duct_height_m, nozzle_area_ratio, heating_value_j_per_kg, stoichiometric_ratio,
+        combustion_efficiency,
+    }
 }

@@ -1,11 +1,10 @@
-//! Reads and checks the data files; errors give file, key, value and limit.
+//! Checks the data files as a whole; errors give file, key, value and limit.
 
 use super::embedded::Embedded;
 use super::files::{AeroData, EarthData, VehicleData};
-use super::ranges;
+use super::reader::{self, Entry, Problem};
 use crate::error::Error;
 use crate::short::short;
-use serde::de::DeserializeOwned;
 
 /// Tolerance of the sum of the tanks' shares.
 const SHARES_TOLERANCE: f64 = 1e-9;
@@ -16,40 +15,42 @@ const MAX_STATIONS: usize = 2000;
 pub const MAX_LAYERS: usize = 8;
 
 /// A data file that can be read and checked.
-pub trait DataFile: DeserializeOwned {
+pub trait DataFile: Entry {
     /// Reads and checks TOML text; `file` is its name for messages.
     ///
     /// # Errors
     /// [`Error::Data`] with the key or the line, the value and the limit.
     fn parse(file: &str, text: &str) -> Result<Self, Error> {
-        let unreadable = |error: toml::de::Error| {
-            let before = error.span().and_then(|span| text.get(..span.start)).unwrap_or("");
-            Error::Data {
-                file: file.to_string(),
-                key: format!("line {}", before.matches('\n').count() + 1),
-                problem: error.message().to_string(),
-            }
-        };
-        if let Some((key, problem)) = ranges::first_problem(&text.parse().map_err(unreadable)?) {
-            return Err(Error::Data { file: file.to_string(), key, problem });
-        }
-        let data: Self = toml::from_str(text).map_err(unreadable)?;
+        Ok(Self::parse_and_pack(file, text)?.0)
+    }
+
+    /// The same, with the packed form: the numbers without comments, units and sources.
+    ///
+    /// # Errors
+    /// Those of [`DataFile::parse`].
+    fn parse_and_pack(file: &str, text: &str) -> Result<(Self, Vec<u8>), Error> {
+        let (data, packed): (Self, _) =
+            reader::parse(text).map_err(|problem| wrong(file, problem))?;
+        data.check(&Check { file })?;
+        Ok((data, packed))
+    }
+
+    /// Reads and checks a file in the form in which the library has it.
+    ///
+    /// # Errors
+    /// [`Error::Data`] with the key, the value and the limit.
+    fn unpack(file: &str, packed: &[u8]) -> Result<Self, Error> {
+        let data: Self = reader::unpack(packed).map_err(|problem| wrong(file, problem))?;
         data.check(&Check { file })?;
         Ok(data)
     }
 
-    /// Reads and checks an embedded file.
+    /// A file of the library.
     ///
     /// # Errors
-    /// [`Error::Data`] with the key, the value and the limit.
+    /// Those of [`DataFile::unpack`].
     fn embedded(file: &Embedded) -> Result<Self, Error> {
-        let data: Self = postcard::from_bytes(file.packed).map_err(|error| Error::Data {
-            file: file.name.to_string(),
-            key: "packed".to_string(),
-            problem: error.to_string(),
-        })?;
-        data.check(&Check { file: file.name })?;
-        Ok(data)
+        Self::unpack(file.name, file.packed)
     }
 
     /// Checks relations between numbers.
@@ -57,6 +58,10 @@ pub trait DataFile: DeserializeOwned {
     /// # Errors
     /// [`Error::Data`] with the key, the value and the limit.
     fn check(&self, check: &Check) -> Result<(), Error>;
+}
+
+fn wrong(file: &str, Problem { key, problem }: Problem) -> Error {
+    Error::Data { file: file.to_string(), key, problem }
 }
 
 /// Checks of one file.

@@ -23,21 +23,31 @@ pub struct Setup {
     pub parameters: Parameters,
 }
 
-/// The data are the same in every setup of a library.
 impl PartialEq for Setup {
     fn eq(&self, other: &Self) -> bool {
-        self.parameters == other.parameters
+        let same_data =
+            Arc::ptr_eq(&self.data, &other.data) || self.data.packed() == other.data.packed();
+        self.parameters == other.parameters && same_data
     }
 }
 
 impl Setup {
-    /// Default parameters.
+    /// Default parameters of the built-in vehicle.
     ///
     /// # Errors
     /// [`Error::Data`] if the data are not those of a vehicle.
     pub fn new() -> Result<Self, Error> {
-        let data = Arc::new(Data::embedded()?);
-        Ok(Self { parameters: Parameters::new(&data), data })
+        Ok(Self::of(Data::embedded()?))
+    }
+
+    /// Default parameters of a vehicle with these data.
+    pub fn of(data: Data) -> Self {
+        Self { parameters: Parameters::new(&data), data: Arc::new(data) }
+    }
+
+    /// The data of the vehicle.
+    pub fn data(&self) -> &Data {
+        &self.data
     }
 
     /// A flight from time zero, with the default tolerance.

@@ -1,9 +1,8 @@
 //! The vocabulary of the table's rows: units, masks of dependencies, constructors, enumerations.
 
-use crate::data::OWN;
 use crate::flight::Setup;
 use crate::vehicle::{self, CONTROLS, NOMINAL, STATES, eta};
-use fmi_model::{Dependencies, Kind, Unit, Variable};
+use fmi_model::{Dependencies, Items, Kind, Unit, Variable};
 
 /// Degrees per radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
@@ -105,7 +104,7 @@ pub(super) const CONFIGURATION: Kind = Kind::Enumeration(
         ("SloshBeam", 3, "Flexible beam with sloshing propellant, 15 states"),
     ],
 );
-pub(super) const AERO_SETS: &[(&str, i32, &str)] = &[
+pub(super) const AERO_SETS: Items = &[
     (
         "xu2015",
         1,
@@ -113,11 +112,15 @@ pub(super) const AERO_SETS: &[(&str, i32, &str)] = &[
     ),
     ("parker2007", 2, "Published rigid-body fits, derived elastic terms"),
     ("shock_expansion", 3, "Fits of the first-principles air and engine model"),
-    ("own", 4, "Coefficients that this FMU was built with"),
+    ("own", 4, "Coefficients of the user, in the resources of this FMU"),
 ];
+pub(super) const AERO: Kind = Kind::Enumeration("Aero", AERO_SETS);
+
 /// The last one only where there is one.
-pub(super) const AERO: Kind =
-    Kind::Enumeration("Aero", AERO_SETS.split_at(AERO_SETS.len() - OWN.is_none() as usize).0);
+pub(super) fn aero_sets(setup: &Setup) -> Items {
+    &AERO_SETS[..AERO_SETS.len() - usize::from(setup.data().own.is_none())]
+}
+
 pub(super) const INPUT_MODE: Kind = Kind::Enumeration(
     "InputMode",
     &[

@@ -9,6 +9,7 @@ mod lifecycle;
 mod logging;
 #[path = "../../crates/fmi/tests/master/mod.rs"]
 mod master;
+mod own_vehicle;
 mod random_calls;
 mod refusals;
 mod state;

@@ -36,7 +36,7 @@ fn verif_the_files_in_the_library_are_as_a_user_would_have_to_write_them() {
 
 /// The file as the library carries it: what the FMU's GUID depends on.
 fn packed(text: &str) -> Vec<u8> {
-    postcard::to_stdvec(&VehicleData::parse("vehicle.toml", text).unwrap()).unwrap()
+    VehicleData::parse_and_pack("vehicle.toml", text).unwrap().1
 }
 
 #[test]
@@ -124,14 +124,26 @@ fn verif_a_wrong_vehicle_is_refused_with_file_key_and_limit() {
             "bay_length_m = { value = 0.508, unit = \"ft\"",
             "tank.fore.bay_length_m: the unit is ft, must be m",
         ),
-        ("status = \"identified\"", "status = \"guessed\"", "unknown variant `guessed`"),
-        ("[actuation]", "[actuators]", "unknown field `actuators`"),
+        (
+            "status = \"identified\"",
+            "status = \"guessed\"",
+            "the status is guessed, must be one of published, converted",
+        ),
+        (
+            "[actuation]",
+            "[actuators]",
+            "actuators: unknown key, must be one of geometry, mass, beam, tank, actuation",
+        ),
         (
             "length_m = { value = 30.48",
             "length_m = { value = nan",
             "geometry.length_m: NaN must lie in [0.001, 1000] m",
         ),
-        ("length_m = {", "width_m3 = {", "geometry.width_m3: unknown quantity"),
+        (
+            "length_m = {",
+            "width_m3 = {",
+            "geometry.width_m3: unknown key, must be one of length_m, fore_body_m",
+        ),
         (
             "nacelle_m = { value = 6.096",
             "nacelle_m = { value = 26.096",

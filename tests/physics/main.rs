@@ -5,6 +5,7 @@ mod data;
 mod dynamics;
 mod explicit;
 mod flight;
+mod hostile_data;
 #[path = "../model/mod.rs"]
 mod model;
 mod solve;

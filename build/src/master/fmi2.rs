@@ -5,6 +5,7 @@ use super::{Calls, DISCARD, Log, Step, functions, text};
 use crate::fmu::Fmu;
 use crate::model_description::{Kind, Variable};
 use anyhow::{Context, Result, bail};
+use fmi_model::location;
 use libloading::Library;
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::ptr;
@@ -34,7 +35,7 @@ impl Component {
         });
         let name = CString::new(fmu.model.model_name.as_str())?;
         let guid = CString::new(fmu.model.token.as_str())?;
-        let resources = CString::new(format!("file://{}", fmu.resources().display()))?;
+        let resources = CString::new(location::uri(&fmu.resources()))?;
         // SAFETY: the strings are terminated and outlive the call; log and callbacks live in boxes
         // that the instance keeps until it is freed.
         let pointer = unsafe {

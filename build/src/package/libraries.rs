@@ -8,6 +8,7 @@ use crate::describe::MODEL_IDENTIFIER;
 use crate::python::Environment;
 use crate::workspace::{MAX_BINARY_BYTES, read, shown};
 use anyhow::{Context, Result, bail};
+use fmi_model::platform::PLATFORMS;
 use fmi_model::standard::Standard;
 use std::io::{Cursor, Read};
 use std::path::Path;
@@ -31,6 +32,8 @@ pub struct Libraries {
     pub component: Option<Vec<u8>>,
     /// Whether they were given by the user.
     pub prebuilt: bool,
+    /// Licences of what is in them, if they are of a package.
+    pub licenses: Option<Files>,
     /// Libraries that could not be built as intended: what, why, and the remedy.
     pub missing: Vec<String>,
 }
@@ -43,6 +46,20 @@ impl Libraries {
             let (platform, file) = platform::parse_library_option(option)?;
             libraries.read(platform, &file)?;
         }
+        Ok(libraries)
+    }
+
+    /// Those of a package, whose FMU of FMI 2.0 this is.
+    pub fn of_package(package: &Path) -> Result<Self> {
+        let mut libraries = Self::default();
+        for platform in PLATFORMS {
+            let name = platform.binary(Standard::Fmi2, MODEL_IDENTIFIER);
+            let Ok(content) = entry(package, &name) else { continue };
+            let content = universal::part(&content, platform)?.to_vec();
+            libraries.add(platform, content).with_context(|| shown(package))?;
+        }
+        libraries.component = entry(&of(Standard::Fmi3, package), &wasm::name()).ok();
+        libraries.licenses = Some(entries(package, "documentation/licenses/")?);
         Ok(libraries)
     }
 
@@ -206,6 +223,22 @@ pub fn entry(package: &Path, name: &str) -> Result<Vec<u8>> {
     let mut content = Vec::new();
     file.take(MAX_BINARY_BYTES).read_to_end(&mut content)?;
     Ok(content)
+}
+
+/// The files below a folder in an archive.
+fn entries(package: &Path, folder: &str) -> Result<Files> {
+    let mut archive = ZipArchive::new(Cursor::new(read(package, MAX_BINARY_BYTES)?))?;
+    let mut files = Files::new();
+    for index in 0..archive.len() {
+        let file = archive.by_index(index)?;
+        let name = file.name()?.into_owned();
+        if name.starts_with(folder) && file.is_file() {
+            let mut content = Vec::new();
+            file.take(MAX_BINARY_BYTES).read_to_end(&mut content)?;
+            files.insert(name, content);
+        }
+    }
+    Ok(files)
 }
 
 /// The library for a platform in an FMU whose library for Linux is `linux`.

@@ -98,6 +98,6 @@ fn from_resources<M: Model>(
     }
     Err(format!(
         "the data in {} belong to {theirs}: model description and data are not from the same FMU",
-        folder.display()
+        folder.to_string_lossy()
     ))
 }

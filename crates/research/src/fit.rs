@@ -7,9 +7,8 @@ use crate::shock_expansion::elastic::{self, COMPARED};
 use crate::shock_expansion::stream::Stream;
 use crate::shock_expansion::{Attitude, ShockExpansion};
 use ahv::air::Atmosphere;
-use ahv::data::Status;
 use ahv::data::{
-    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, Quantity, VEHICLE, VehicleData,
+    AeroData, AeroSet, Data, DataFile, EARTH, EarthData, PARKER2007, VEHICLE, VehicleData,
 };
 use ahv::dynamics::trim::trim;
 use ahv::flight::Parameters;
@@ -17,7 +16,7 @@ use ahv::structure::{FLEXIBLE, Modes};
 use ahv::vehicle::{ALPHA, Configuration, Vehicle, VehicleOptions, structure};
 use ahv_tool::table::{row, table};
 use ahv_tool::workspace::{MAX_DATA_BYTES, read_text, root, shown, write};
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 use regression::{Axis, COEFFICIENTS, Deviation, Sample, TERMS, deviation, fit, samples};
 use std::fmt::Write;
 
@@ -47,8 +46,7 @@ pub fn run(options: &Fit) -> Result<()> {
     let inputs = Inputs {
         vehicle: VehicleData::embedded(&VEHICLE)?,
         earth: EarthData::embedded(&EARTH)?,
-        // Sources are only in the TOML text.
-        published: AeroData::parse(PARKER2007.name, PARKER2007.text)?,
+        published: AeroData::embedded(&PARKER2007)?,
     };
     let result = regress(&inputs)?;
     let (text, compared) = text(&inputs, &result)?;
@@ -106,16 +104,6 @@ fn regress(inputs: &Inputs) -> Result<Fitted> {
     Ok(Fitted { factors, rows })
 }
 
-fn status(status: Status) -> &'static str {
-    match status {
-        Status::Published => "published",
-        Status::Converted => "converted",
-        Status::Derived => "derived",
-        Status::Identified => "identified",
-        Status::Assumed => "assumed",
-    }
-}
-
 fn line(key: &str, value: &str, unit: &str, source: &str, status: &str) -> String {
     format!(
         "{key} = {{ value = {value}, unit = \"{unit}\", source = \"{source}\", \
@@ -123,10 +111,16 @@ fn line(key: &str, value: &str, unit: &str, source: &str, status: &str) -> Strin
     )
 }
 
-fn copied<T: std::fmt::Debug>(key: &str, quantity: &Quantity<T>) -> String {
-    let value = format!("{:?}", quantity.value);
-    let origin = quantity.origin.as_ref().expect("a quantity read from TOML has its origin");
-    line(key, &value, &origin.unit, &origin.source, status(origin.status))
+/// A line of the published set.
+fn copied(table: &str, key: &str) -> Result<String> {
+    let (header, start) = (format!("[{table}]"), format!("{key} = "));
+    let lines = PARKER2007.text.lines().skip_while(|line| *line != header);
+    let found = lines
+        .skip(1)
+        .take_while(|line| !line.starts_with('['))
+        .find(|line| line.starts_with(&start));
+    let line = found.ok_or_else(|| anyhow!("{}: no {table}.{key}", PARKER2007.name))?;
+    Ok(format!("{line}\n"))
 }
 
 /// The data file, and the errors of its elastic terms. The elastic derivatives are taken at incidence and
@@ -219,21 +213,19 @@ fn file(
         writeln!(text, "# {}", line.trim_end())?;
     }
 
-    let published = &inputs.published;
-    let reference = &published.reference;
     text.push_str("\n[reference]\n");
-    text.push_str(&copied("area_m2_per_m", &reference.area_m2_per_m));
-    text.push_str(&copied("chord_m", &reference.chord_m));
-    text.push_str(&copied("moment_centre_m", &reference.moment_centre_m));
-    text.push_str(&copied("thrust_arm_m", &reference.thrust_arm_m));
+    text.push_str(&copied("reference", "area_m2_per_m")?);
+    text.push_str(&copied("reference", "chord_m")?);
+    text.push_str(&copied("reference", "moment_centre_m")?);
+    text.push_str(&copied("reference", "thrust_arm_m")?);
     let source = "where the elastic derivatives are taken: rigid trim of this set";
     for (key, angle) in ["elastic_alpha_rad", "elastic_delta_e_rad"].into_iter().zip(elastic) {
         text.push_str(&line(key, &format!("{angle:.5}"), "rad", source, "derived"));
     }
-    text.push_str(&copied("elastic_scale", &reference.elastic_scale));
+    text.push_str(&copied("reference", "elastic_scale")?);
     text.push_str("\n[inertia]\n");
-    text.push_str(&copied("i_yy_kg_m2_per_m", &published.inertia.i_yy_kg_m2_per_m));
-    text.push_str(&copied("structural_damping", &published.inertia.structural_damping));
+    text.push_str(&copied("inertia", "i_yy_kg_m2_per_m")?);
+    text.push_str(&copied("inertia", "structural_damping")?);
     for (terms, factors) in TERMS.iter().zip(&result.factors) {
         let mut table = "";
         for (term, factor) in terms.iter().zip(factors) {
@@ -246,9 +238,9 @@ fn file(
         }
     }
     text.push_str("\n[envelope]\n");
-    text.push_str(&copied("alpha_rad", &published.envelope.alpha_rad));
-    text.push_str(&copied("mach", &published.envelope.mach));
-    text.push_str(&copied("altitude_m", &published.envelope.altitude_m));
+    text.push_str(&copied("envelope", "alpha_rad")?);
+    text.push_str(&copied("envelope", "mach")?);
+    text.push_str(&copied("envelope", "altitude_m")?);
     let source = "the fit is made where the burner is not choked";
     text.push_str(&line("choking_margin", "0.0", "1", source, "derived"));
     Ok(text)

@@ -10,7 +10,7 @@ use ahv::flight::{DEFAULT_TOLERANCE, method};
 use ahv::solve::{DOP853, Integrator, Method, Outcome, System};
 use ahv::vehicle::{ALPHA, Control, DELTA_E, NOMINAL, PHI, Q, STATES, State, Vehicle};
 use ahv_tool::table::{row, table};
-use ahv_tool::trim::{flight, model};
+use ahv_tool::trim::flight;
 use anyhow::Result;
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -142,7 +142,7 @@ fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
 
 /// Prints right-hand sides and error of each method for a range of tolerances.
 pub fn run(options: &Compare) -> Result<()> {
-    let flight = flight(&model()?, &options.set)?;
+    let flight = flight(&options.set)?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let mut exponential = method(vehicle, trim);
     outln!(

@@ -27,7 +27,8 @@ static REPORT: LazyLock<String> = LazyLock::new(|| {
 });
 
 fn documentation() -> String {
-    ahv_tool::documentation::html(&["Linux".to_string()]).unwrap()
+    ahv_tool::documentation::html(&ahv::flight::Setup::new().unwrap(), &["Linux".to_string()])
+        .unwrap()
 }
 
 fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {

@@ -35,7 +35,7 @@ impl Texts {
             xu2015,
             parker2007,
             shock_expansion,
-            own: None,
+            ..Data::embedded().expect("the embedded data are valid")
         }
     }
 }

@@ -41,22 +41,29 @@ impl<'a, M: Model> Slave<'a, M> {
     }
 
     pub fn with(api: &'a Api<M>, kind: sys::Type, on: bool) -> Self {
+        let made = Self::of_package(api, kind, &guid::<M>(), None, on);
+        made.unwrap_or_else(|log| panic!("{log:?}"))
+    }
+
+    /// An instance of a package with this GUID and these resources, or why there is none.
+    pub fn of_package(
+        api: &'a Api<M>,
+        kind: sys::Type,
+        guid: &str,
+        resources: Option<&str>,
+        on: bool,
+    ) -> Result<Self, Vec<Record>> {
         let sink = Box::new(Sink::default());
-        let guid = CString::new(guid::<M>()).unwrap();
-        let functions = callbacks(&sink);
-        let c = unsafe {
-            (api.instantiate)(
-                c"one".as_ptr(),
-                kind,
-                guid.as_ptr(),
-                null(),
-                &functions,
-                0,
-                on.into(),
-            )
-        };
-        assert!(!c.is_null());
-        Self { api, c, sink }
+        let [guid, resources] =
+            [Some(guid), resources].map(|it| it.map(|it| CString::new(it).unwrap()));
+        let [guid, resources] =
+            [&guid, &resources].map(|it| it.as_ref().map_or(null(), |it| it.as_ptr()));
+        let (name, functions) = (c"one".as_ptr(), callbacks(&sink));
+        let c = unsafe { (api.instantiate)(name, kind, guid, resources, &functions, 0, on.into()) };
+        match c.is_null() {
+            true => Err(std::mem::take(&mut *sink.lock().unwrap())),
+            false => Ok(Self { api, c, sink }),
+        }
     }
 
     /// What was logged since the last call.

@@ -6,7 +6,7 @@ use super::timing::Spread;
 use ahv::flight::Flight;
 use ahv::vehicle::DELTA_E;
 use ahv_tool::cli::Set;
-use ahv_tool::trim::{flight, model};
+use ahv_tool::trim::flight;
 use anyhow::{Result, anyhow};
 use std::time::Instant;
 
@@ -49,7 +49,7 @@ fn rate(start: &Flight, flights: usize, threads: usize) -> Result<f64> {
 }
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let start = flight(&model()?, &Set { settings: Vec::new() })?;
+    let start = flight(&Set { settings: Vec::new() })?;
     let cores = std::thread::available_parallelism()?.get();
     let mut best = [0.0_f64; 2];
     for (best, threads) in best.iter_mut().zip([1, cores]) {

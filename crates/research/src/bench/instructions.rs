@@ -7,7 +7,7 @@ use super::timing::Spread;
 use crate::cli::Probe;
 use crate::methods::Law;
 use ahv_tool::cli::Set;
-use ahv_tool::trim::{flight, model};
+use ahv_tool::trim::flight;
 use ahv_tool::workspace::works;
 use ahv_tool::workspace::{MAX_TEXT_BYTES, read_text, target};
 use anyhow::{Context, Result, bail};
@@ -21,7 +21,7 @@ const STEPS: usize = 100;
 
 /// Runs a probe many times, under callgrind.
 pub fn probe(probe: Probe, calls: usize) -> Result<()> {
-    let mut flight = flight(&model()?, &Set { settings: Vec::new() })?;
+    let mut flight = flight(&Set { settings: Vec::new() })?;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let (vehicle, trim) = (vehicle.clone(), *trim);
     let start = flight.snapshot();

@@ -63,7 +63,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
         let note = format!("{growth:.2} x the time per element of 125");
         report.line(format!("modes, {elements} elements"), time.scaled(1e3), "ms", note);
     }
-    if let Err(why) = peers(report, &eigenproblem_json(&options)?, ours) {
+    if let Err(why) = peers(report, &eigenproblem_json(setup.data(), &options)?, ours) {
         report.left_out("eigsh and LAPACK", &why);
     }
     Ok(())

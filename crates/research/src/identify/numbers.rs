@@ -1,6 +1,6 @@
 //! The adjustable numbers of a coefficient set, their priors, and the file of the adjusted set.
 
-use ahv::data::{AeroData, PARKER2007};
+use ahv::data::{AeroData, DataFile, PARKER2007};
 use anyhow::{Result, anyhow};
 use nalgebra::DVector;
 use std::fmt::Write;
@@ -92,7 +92,14 @@ impl Origin {
 
     /// The set at a point.
     pub fn moved(&self, point: &DVector<f64>) -> Option<AeroData> {
-        self.with(point).try_into().ok()
+        let mut text = String::new();
+        for (name, entries) in &self.with(point) {
+            writeln!(text, "[{name}]").ok()?;
+            for (key, number) in entries.as_table()? {
+                writeln!(text, "{key} = {number}").ok()?;
+            }
+        }
+        AeroData::parse("moved", &text).ok()
     }
 
     fn with(&self, point: &DVector<f64>) -> Table {
@@ -185,7 +192,6 @@ fn rounded(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ahv::data::DataFile;
 
     #[test]
     fn a_set_that_does_not_move_is_the_published_one() {
