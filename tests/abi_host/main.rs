@@ -15,8 +15,9 @@ mod host;
 mod master;
 mod watch;
 
-use common::Api;
-use fmi_model::v2::sys::Type;
+use common::fmi2::Api;
+use fmi_model::instance::Interface;
+use master::Api as _;
 use watch::Watch;
 
 /// Stack that a call may use, bytes.
@@ -74,4 +75,4 @@ fn the_watch_sees_exceptions_and_stack() {
 }
 
 /// Both interfaces.
-const INTERFACES: [Type; 2] = [Type::CO_SIMULATION, Type::MODEL_EXCHANGE];
+const INTERFACES: [Interface; 2] = [Interface::CoSimulation, Interface::ModelExchange];
