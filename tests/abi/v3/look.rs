@@ -1,7 +1,7 @@
 //! What a master may do within a step.
 
 use crate::common::fmi3::{Api, Slave};
-use crate::common::{configurations, reference};
+use crate::common::{configurations, fmi2, reference};
 use crate::master::order::Order;
 use crate::master::{Api as _, Random};
 use fmi_model::instance::Interface;
@@ -15,7 +15,7 @@ const ACCURACY: f64 = 1e-8;
 
 /// An instance into whose steps the master looks, with some elevator.
 fn open(api: &Api, configuration: i32, early_return_allowed: bool) -> Slave<'_> {
-    let outputs = ["V", "alpha", "lift", "delta_e"].map(reference);
+    let outputs = ["V", "alpha", "lift"].map(reference);
     let slave = Slave::open(api, early_return_allowed, &outputs);
     slave.start_as(configuration);
     assert_eq!(slave.set("delta_e", 0.005), Status::Ok);
@@ -63,7 +63,8 @@ fn a_master_that_only_looks_changes_no_bit() {
     let api = Api::load();
     for configuration in configurations() {
         let (looked_at, left_alone) =
-            (open(&api, configuration, true), open(&api, configuration, true));
+            (open(&api, configuration, true), Slave::flying_as(&api, configuration));
+        assert_eq!(left_alone.set("delta_e", 0.005), Status::Ok);
         for i in 0..4 {
             let point = f64::from(i) * STEP;
             let answers = looked_at.step_with(point, STEP, |_| {
@@ -141,6 +142,44 @@ fn inputs_set_within_a_step_act_from_there_on() {
     let held = open(&api, 3, false);
     assert_eq!(held.step(0.0, STEP), Status::Ok);
     assert!((held.get("q") - slave.get("q")).abs() > 1e-4, "the inputs act");
+}
+
+#[test]
+fn a_master_that_sets_inputs_is_first_asked_for_those_at_the_end_and_they_move_there() {
+    let api = Api::load();
+    let (start, end) = (0.005, 0.012);
+    let slave = Slave::open(&api, true, &[reference("delta_e")]);
+    slave.start_as(3);
+    assert_eq!(slave.set("delta_e", start), Status::Ok);
+    let mut seen = Vec::new();
+    let answers = slave.step_with(0.0, STEP, |moment| {
+        if seen.is_empty() {
+            assert!(moment.set_requested && moment.time == STEP);
+            assert!(!moment.get_allowed && !moment.step_finished && !moment.can_return_early);
+            assert_eq!(slave.set("delta_e", end), Status::Ok);
+            seen.push((0.0, start));
+            // Refused: the flag says so.
+            return Some(0.1);
+        }
+        assert!(moment.get_allowed && moment.step_finished);
+        seen.push((moment.time, slave.get("delta_e")));
+        None
+    });
+    assert_eq!((answers.status, answers.time), (Status::Ok, STEP));
+    for (time, elevator) in seen {
+        let expected = start + (end - start) * time / STEP;
+        assert!((elevator - expected).abs() < 1e-15, "{time}: {elevator}, not {expected}");
+    }
+    // The same as by FMI 2.0, where the master gives the slope.
+    let api = fmi2::Api::load();
+    let twin = fmi2::Slave::flying_as(&api, 3);
+    assert_eq!(twin.set("delta_e", start), Status::Ok);
+    assert_eq!(twin.set_input_derivative("delta_e", 1, (end - start) / STEP), Status::Ok);
+    assert_eq!(twin.step(0.0, STEP), Status::Ok);
+    for name in ["V", "alpha", "q", "eta1", "slosh1"] {
+        let (one, two) = (slave.get(name), twin.get(name));
+        assert!((one - two).abs() <= ACCURACY * (1.0 + two.abs()), "{name} {one} {two}");
+    }
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::master::{Random, Slave};
 use fmi_model::instance::Interface;
 use fmi_model::phase::Phase;
 use fmi_model::v3::sys::{Boolean, Status};
-use fmi_model::{Model, Simulation, table};
+use fmi_model::{Model, Role, Simulation, table};
 use std::ffi::{c_char, c_void};
 use std::ptr::{null, null_mut};
 use std::rc::Rc;
@@ -36,10 +36,21 @@ impl<M: Model> Game for Api<M> {
     }
     fn instance(api: &Self, interface: Interface, seed: u64) -> Slave<'_, Self> {
         match interface {
-            Interface::CoSimulation if seed % 4 > 0 => Slave::open(api, seed % 8 > 3, &[]),
+            // A quarter of them are asked for inputs.
+            Interface::CoSimulation if seed % 8 > 1 => {
+                let inputs = inputs::<M>();
+                let moves = <M as Model>::Simulation::INTERNAL_STEP.is_some() && seed % 8 > 5;
+                Slave::open(api, seed % 16 > 7, if moves { &inputs } else { &[] })
+            }
             _ => Slave::with(api, interface, false),
         }
     }
+}
+
+/// Value references of all inputs.
+fn inputs<M: Model>() -> Vec<u32> {
+    let is_input = |&i: &u32| matches!(M::VARIABLES[i as usize].role, Role::Input(_));
+    (0..M::VARIABLES.len() as u32).filter(is_input).collect()
 }
 
 /// The number of values that the master states: now and then another than that of the variables.
