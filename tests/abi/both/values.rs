@@ -7,6 +7,9 @@ use ahv::variables::TABLE;
 use fmi_model::status::Status;
 use fmi_model::{Kind, Role};
 
+/// Unknowns, knowns, seed, what is returned, and words of the reason.
+type Refused<'a> = (&'a [u32], &'a [u32], &'a [f64], Status, &'a str);
+
 /// What is returned for a value that cannot be taken.
 const REFUSED: Status = Api::REFUSED;
 
@@ -104,7 +107,7 @@ fn directional_derivatives_write_all_or_nothing_and_name_what_they_refuse() {
     assert!((sum[0] - expected).abs() <= 1e-14 * expected.abs());
 
     let (alpha_trim, fuel) = (reference("alpha_trim"), reference("fuel_fraction"));
-    let refused: [(&[u32], &[u32], &[f64], Status, &str); 4] = [
+    let refused: [Refused; 4] = [
         (&[rates[0], alpha_trim], &both, &[1.0; 2], Status::Error, "alpha_trim"),
         (&rates, &[both[0], fuel], &[1.0; 2], Status::Error, "fuel_fraction"),
         (&rates, &both, &[1.0, f64::NAN], REFUSED, "delta_e"),

@@ -7,6 +7,9 @@ use ahv::variables::TABLE;
 use fmi_model::Role;
 use fmi_model::status::Status;
 
+/// Unknowns, knowns, seed, what is returned, and words of the reason.
+type Refused<'a> = (&'a [u32], &'a [u32], &'a [f64], Status, &'a str);
+
 /// Sums over a column of the Jacobian are made in another order than those of this test.
 const ROUNDING: f64 = 1e-13;
 
@@ -62,7 +65,7 @@ fn an_adjoint_derivative_writes_all_or_nothing_and_names_what_it_refuses() {
     let api = Api::load();
     let slave = Slave::flying(&api);
     let [rate, q, alpha, parameter] = ["der(q)", "q", "alpha", "mach0"].map(reference);
-    let refused: [(&[u32], &[u32], &[f64], Status, &str); 6] = [
+    let refused: [Refused; 6] = [
         (&[rate, parameter], &[q], &[1.0; 2], Status::Error, "mach0 cannot be an unknown"),
         (&[rate], &[q, parameter], &[1.0], Status::Error, "mach0 cannot be a known"),
         (&[rate], &[q, 9999], &[1.0], Status::Error, "9999 is unknown"),

@@ -78,12 +78,14 @@ fn a_master_that_only_looks_changes_no_bit() {
     }
 }
 
+/// Seconds after the first moment, and where the step then ends.
+type Wish = (f64, fn(f64) -> f64);
+
 #[test]
 fn an_early_return_lands_where_it_is_asked_for() {
     let api = Api::load();
     for configuration in configurations() {
-        // Asked for, seconds after the first moment; where it lands.
-        let wishes: [(f64, fn(f64) -> f64); 5] = [
+        let wishes: [Wish; 5] = [
             (0.0, |now| now),
             (0.03, |now| now + 0.03),
             (-0.1, |now| now),
