@@ -7,12 +7,17 @@ mod common;
 #[path = "../crates/fmi/tests/master/mod.rs"]
 mod master;
 
-use common::{Api, Slave};
-use fmi_model::v2::sys::Status;
+use common::{fmi2, fmi3};
+use fmi_model::status::Status;
+use master::{Api, Slave};
 use std::sync::mpsc::channel;
 use std::thread;
 
-fn fly(api: &Api) {
+/// A version of the vehicle's library.
+trait Vehicle: Api<Model = ahv::flight::Setup> {}
+impl<A: Api<Model = ahv::flight::Setup>> Vehicle for A {}
+
+fn fly<A: Vehicle>(api: &A) {
     let slave = Slave::flying(api);
     assert_eq!(slave.step(0.0, 0.01), Status::Ok);
     let state = slave.save();
@@ -20,8 +25,8 @@ fn fly(api: &Api) {
     assert_eq!(slave.set("V", 1.0), Status::Error);
 }
 
-fn load_fly_unload() {
-    let api = Api::load();
+fn load_fly_unload<A: Vehicle>() {
+    let api = A::load();
     fly(&api);
     api.close();
 }
@@ -49,13 +54,22 @@ fn assert_bounded(before: u64) {
 
 /// Loads, flies and unloads so often; whatever this leaves behind adds up.
 fn reload(alone: u32, in_threads: u32) {
-    for _ in 0..alone {
-        load_fly_unload();
+    for i in 0..alone {
+        if i % 2 == 0 {
+            load_fly_unload::<fmi2::Api>()
+        } else {
+            load_fly_unload::<fmi3::Api>()
+        }
         #[cfg(target_os = "linux")]
         assert!(!loaded(), "something of the library outlives it");
     }
     for _ in 0..in_threads / THREADS {
-        let threads: Vec<_> = (0..THREADS).map(|_| thread::spawn(load_fly_unload)).collect();
+        let threads: Vec<_> = [load_fly_unload::<fmi2::Api>, load_fly_unload::<fmi3::Api>]
+            .into_iter()
+            .cycle()
+            .take(THREADS as usize)
+            .map(thread::spawn)
+            .collect();
         threads.into_iter().for_each(|thread| thread.join().unwrap());
     }
     #[cfg(target_os = "linux")]
@@ -69,17 +83,17 @@ const NO_GROWTH: u64 = 256;
 
 #[test]
 fn the_library_unloads_for_good_every_time_and_instances_leave_no_memory_behind() {
-    reload(400, 400);
+    reload(800, 800);
     #[cfg(target_os = "linux")]
     let before = resident_pages();
-    reload(4000, 1000);
+    reload(8000, 2000);
     #[cfg(target_os = "linux")]
     assert_bounded(before);
 
     // A thread that used an instance ends after the library is gone.
     let ((used, wait_for_use), (unloaded, wait_for_unload)) = (channel(), channel());
     let thread = thread::spawn(move || {
-        let api = Api::load();
+        let api = fmi3::Api::load();
         fly(&api);
         used.send(api).unwrap();
         wait_for_unload.recv().unwrap();
@@ -90,8 +104,13 @@ fn the_library_unloads_for_good_every_time_and_instances_leave_no_memory_behind(
     unloaded.send(()).unwrap();
     thread.join().unwrap();
 
-    let api = Api::load();
-    let instances = |count: u32| (0..count).for_each(|_| fly(&api));
+    grow_by_nothing(&fmi2::Api::load());
+    grow_by_nothing(&fmi3::Api::load());
+}
+
+/// Instances that come and go leave nothing behind.
+fn grow_by_nothing<A: Vehicle>(api: &A) {
+    let instances = |count: u32| (0..count).for_each(|_| fly(api));
     instances(500);
     #[cfg(target_os = "linux")]
     let before = resident_pages();

@@ -3,7 +3,10 @@
 
 mod model;
 
+use ahv::flight::Setup;
 use ahv::vehicle::DELTA_E;
+use fmi_model::failure::Outcome;
+use fmi_model::instance::{Instance, Interface};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -42,5 +45,24 @@ fn verif_a_step_with_all_outputs_allocates_nothing() {
             flight.evaluate().unwrap();
         }
         assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0, "{configuration:?}");
+    }
+}
+
+#[test]
+fn a_step_of_an_instance_allocates_nothing_in_either_version_once_it_has_made_one() {
+    let steps: [fn(&mut Instance<Setup>, f64, f64) -> Outcome; 2] =
+        [Instance::do_step, Instance::whole_step];
+    for step in steps {
+        let mut instance = Instance::<Setup>::new(Interface::CoSimulation, false).unwrap();
+        instance.setup_experiment(None, 0.0, None).unwrap();
+        instance.enter_initialization_mode().unwrap();
+        instance.exit_initialization_mode().unwrap();
+        step(&mut instance, 0.0, 0.01).unwrap();
+        let before = ALLOCATIONS.with(Cell::get);
+        for i in 1..50 {
+            step(&mut instance, f64::from(i) * 0.01, 0.01).unwrap();
+            instance.get_real(&[0, 1], |_, value| assert!(value.is_finite())).unwrap();
+        }
+        assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0);
     }
 }

@@ -195,7 +195,7 @@ fn fmi_headers() -> Result<()> {
     check(
         cargo()
             .args(["test", "--package", "fmi-model", "--test", "headers", "--", "--ignored"])
-            .env("FMI2_INCLUDE", headers),
+            .env("FMI_INCLUDE", headers),
     )
 }
 

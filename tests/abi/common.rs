@@ -1,15 +1,22 @@
-//! The vehicle's library and its instances.
+//! The vehicle's library and its instances, in both versions of the standard.
 #![allow(unsafe_code, dead_code)]
 
 use crate::master;
-#[allow(unused_imports)]
-pub use crate::master::{Random, Record, Sink, callbacks, recorder};
 use ahv::flight::Setup;
-use fmi_model::v2::sys::Status;
+use fmi_model::status::Status;
 use fmi_model::{Kind, table::find};
 
-pub type Api = master::Api<Setup>;
-pub type Slave<'a> = master::Slave<'a, Setup>;
+/// FMI 2.0.
+pub mod fmi2 {
+    pub type Api = crate::master::v2::Api<ahv::flight::Setup>;
+    pub type Slave<'a> = crate::master::Slave<'a, Api>;
+}
+
+/// FMI 3.0.
+pub mod fmi3 {
+    pub type Api = crate::master::v3::Api<ahv::flight::Setup>;
+    pub type Slave<'a> = crate::master::Slave<'a, Api>;
+}
 
 /// Value reference of a variable.
 pub fn reference(name: &str) -> u32 {
@@ -24,14 +31,14 @@ pub fn configurations() -> Vec<i32> {
     }
 }
 
-impl<'a> Slave<'a> {
+impl<'a, A: master::Api<Model = Setup>> master::Slave<'a, A> {
     /// A rigid vehicle, ready for its first step.
-    pub fn flying(api: &'a Api) -> Self {
+    pub fn flying(api: &'a A) -> Self {
         Self::flying_as(api, 1)
     }
 
     /// A vehicle of this configuration, ready for its first step.
-    pub fn flying_as(api: &'a Api, configuration: i32) -> Self {
+    pub fn flying_as(api: &'a A, configuration: i32) -> Self {
         let slave = Self::new(api);
         slave.start_as(configuration);
         slave
@@ -44,9 +51,8 @@ impl<'a> Slave<'a> {
 
     /// From just instantiated to ready for the first step.
     pub fn start_as(&self, configuration: i32) {
-        assert_eq!(self.set_integer("configuration", configuration), Status::Ok);
-        assert_eq!(self.setup(), Status::Ok);
-        assert_eq!(self.enter(), Status::Ok);
+        assert_eq!(self.set_enumeration("configuration", configuration), Status::Ok);
+        assert_eq!(self.begin(), Status::Ok);
         assert_eq!(self.exit(), Status::Ok);
     }
 
@@ -56,11 +62,11 @@ impl<'a> Slave<'a> {
         let step = 0.0625;
         for i in 0..200 {
             let point = f64::from(i) * step;
-            match self.step(point, step) {
-                Status::Ok => {}
-                Status::Discard => return point,
-                other => panic!("{other:?} {:?}", self.log()),
+            let stepped = self.stepped(point, step);
+            if stepped.ended {
+                return point;
             }
+            assert_eq!(stepped.status, Status::Ok, "{:?}", self.log());
         }
         panic!("so much elevator for 12.5 s and still inside the envelope");
     }

@@ -1,12 +1,14 @@
 //! Parameters at the ends of their ranges, and arguments that make no sense.
 
 use crate::INTERFACES;
-use crate::common::{Api, configurations};
+use crate::common::configurations;
+use crate::common::fmi2::Api;
 use crate::flights::{choose, vehicles};
 use crate::host::Host;
 use crate::watch::Watch;
 use ahv::variables::TABLE;
-use fmi_model::v2::sys::{Status, Type};
+use fmi_model::instance::Interface;
+use fmi_model::v2::sys::Status;
 use fmi_model::{Kind, Role};
 
 /// Finite, and senseless.
@@ -60,7 +62,7 @@ pub fn parameters(api: &Api, watch: &mut Watch) {
                 // The burning vehicle is thirty ones: only where settings meet.
                 for burn in 0..=i32::from(number < together.len() && trim == 1) {
                     let set = 1 + (number % 3) as i32;
-                    let mut host = Host::new(api, watch, Type::CO_SIMULATION, "");
+                    let mut host = Host::new(api, watch, Interface::CoSimulation, "");
                     choose(&mut host, (configuration, set, burn));
                     host.set_boolean("trim", trim);
                     for (name, value) in setting {
@@ -93,7 +95,7 @@ pub fn arguments(api: &Api, watch: &mut Watch) {
 fn before_a_start(
     api: &Api,
     watch: &mut Watch,
-    interface: Type,
+    interface: Interface,
     vehicle: (i32, i32, i32),
     value: f64,
 ) {
@@ -112,7 +114,7 @@ fn before_a_start(
         host.setup(tolerance, start, f64::MAX);
     }
     // One that is taken has a step of one second, as far as time has digits for it.
-    if host.initialise() && interface == Type::CO_SIMULATION {
+    if host.initialise() && interface == Interface::CoSimulation {
         let point = host.time();
         host.step(point, 1.0);
         host.step(point, point.abs());
@@ -121,9 +123,9 @@ fn before_a_start(
     host.finish();
 }
 
-fn in_flight(host: &mut Host, interface: Type, value: f64) {
+fn in_flight(host: &mut Host, interface: Interface, value: f64) {
     let flying = host.scene.clone();
-    if interface == Type::MODEL_EXCHANGE {
+    if interface == Interface::ModelExchange {
         host.enter_continuous_time_mode();
         host.set_time(value);
         let start = host.states();
@@ -145,7 +147,7 @@ fn in_flight(host: &mut Host, interface: Type, value: f64) {
     host.read();
     host.directional_derivatives(value);
     host.directional_derivatives(1.0);
-    if interface == Type::MODEL_EXCHANGE {
+    if interface == Interface::ModelExchange {
         host.rates();
         host.completed();
         return;

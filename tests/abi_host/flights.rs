@@ -1,10 +1,12 @@
 //! Flights of every vehicle through both interfaces.
 
-use crate::common::{Api, configurations};
+use crate::common::configurations;
+use crate::common::fmi2::Api;
 use crate::host::Host;
 use crate::watch::Watch;
 use ahv::vehicle::NOMINAL;
-use fmi_model::v2::sys::{Status, Type};
+use fmi_model::instance::Interface;
+use fmi_model::v2::sys::Status;
 use fmi_model::{Kind, table::find};
 
 /// Configuration, coefficient set, whether fuel burns.
@@ -27,7 +29,7 @@ pub fn choose(host: &mut Host, (configuration, set, burn): Vehicle) {
 }
 
 pub fn co_simulation(api: &Api, watch: &mut Watch, vehicle: Vehicle) {
-    let mut host = Host::new(api, watch, Type::CO_SIMULATION, "co-simulation");
+    let mut host = Host::new(api, watch, Interface::CoSimulation, "co-simulation");
     choose(&mut host, vehicle);
     assert!(host.start());
     host.read();
@@ -68,7 +70,7 @@ pub fn co_simulation(api: &Api, watch: &mut Watch, vehicle: Vehicle) {
 }
 
 pub fn model_exchange(api: &Api, watch: &mut Watch, vehicle: Vehicle) {
-    let mut host = Host::new(api, watch, Type::MODEL_EXCHANGE, "model exchange");
+    let mut host = Host::new(api, watch, Interface::ModelExchange, "model exchange");
     choose(&mut host, vehicle);
     assert!(host.start());
     host.enter_continuous_time_mode();
@@ -97,7 +99,7 @@ pub fn model_exchange(api: &Api, watch: &mut Watch, vehicle: Vehicle) {
 /// A little of everything, for hosts that do not forgive.
 pub fn short(api: &Api, vehicle: Vehicle) {
     let mut watch = Watch::idle();
-    let mut host = Host::new(api, &mut watch, Type::CO_SIMULATION, "");
+    let mut host = Host::new(api, &mut watch, Interface::CoSimulation, "");
     choose(&mut host, vehicle);
     assert!(host.start());
     host.set("delta_e", 1e-3);
@@ -107,7 +109,7 @@ pub fn short(api: &Api, vehicle: Vehicle) {
     host.round_trip();
     host.directional_derivatives(1.0);
     host.finish();
-    let mut host = Host::new(api, &mut watch, Type::MODEL_EXCHANGE, "");
+    let mut host = Host::new(api, &mut watch, Interface::ModelExchange, "");
     choose(&mut host, vehicle);
     assert!(host.start());
     host.enter_continuous_time_mode();

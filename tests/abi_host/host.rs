@@ -1,11 +1,13 @@
 //! A master whose calls are watched.
 
-use crate::common::{Api, Slave, reference};
+use crate::common::fmi2::{Api, Slave};
+use crate::common::reference;
 use crate::watch::Watch;
 use ahv::flight::Setup;
 use ahv::variables::TABLE;
 use ahv::vehicle::{STATES, State};
-use fmi_model::v2::sys::{EventInfo, FmuState, Status, StatusKind, Type};
+use fmi_model::instance::Interface;
+use fmi_model::v2::sys::{EventInfo, FmuState, Status, StatusKind};
 use fmi_model::{Kind, Role};
 use std::ptr::{null, null_mut};
 
@@ -32,7 +34,7 @@ pub fn references(fits: impl Fn(Role<Setup>) -> bool) -> Vec<u32> {
 }
 
 impl<'a> Host<'a> {
-    pub fn new(api: &'a Api, watch: &'a mut Watch, interface: Type, scene: &str) -> Self {
+    pub fn new(api: &'a Api, watch: &'a mut Watch, interface: Interface, scene: &str) -> Self {
         let slave = watch.call("fmi2Instantiate", scene, || Slave::with(api, interface, false));
         Self { slave, watch, scene: scene.into() }
     }

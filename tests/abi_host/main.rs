@@ -13,10 +13,13 @@ mod flights;
 mod host;
 #[path = "../../crates/fmi/tests/master/mod.rs"]
 mod master;
+mod versions;
 mod watch;
 
-use common::Api;
-use fmi_model::v2::sys::Type;
+use common::{fmi2, fmi3};
+use fmi_model::instance::Interface;
+use fmi_model::phase::Call;
+use master::Api as _;
 use watch::Watch;
 
 /// Stack that a call may use, bytes.
@@ -26,7 +29,7 @@ const SMALL_THREAD: usize = 128 << 10;
 
 #[test]
 fn no_call_raises_a_floating_point_exception_or_needs_more_than_64_kb_of_stack() {
-    let api = Api::load();
+    let api = fmi2::Api::load();
     let mut watch = Watch::default();
     for vehicle in flights::vehicles() {
         flights::co_simulation(&api, &mut watch, vehicle);
@@ -34,12 +37,26 @@ fn no_call_raises_a_floating_point_exception_or_needs_more_than_64_kb_of_stack()
     }
     edges::parameters(&api, &mut watch);
     edges::arguments(&api, &mut watch);
+    forgives_nothing(&watch, fmi2::Api::CALLS);
+}
+
+#[test]
+fn fmi3_flies_with_the_bits_of_fmi2_and_asks_no_more_of_its_host() {
+    let mut watch = Watch::default();
+    versions::compare(&mut watch);
+    flights::vehicles().for_each(|vehicle| versions::look(&mut watch, vehicle));
+    versions::every_function(&mut watch);
+    forgives_nothing(&watch, fmi3::Api::CALLS);
+}
+
+/// No exception was raised, no stack was exceeded, and every function was called.
+fn forgives_nothing(watch: &Watch, calls: &'static [Call]) {
     let mut deepest: Vec<_> = watch.deepest.iter().collect();
     deepest.sort_by_key(|(_, depth)| std::cmp::Reverse(**depth));
     println!("{} calls; stack, bytes: {:?}", watch.calls, &deepest[..5]);
     assert!(watch.raised.is_empty(), "{:#?}", watch.raised);
     assert!(deepest.iter().all(|(_, depth)| **depth <= STACK), "{deepest:?}");
-    let unused = watch.not_called();
+    let unused = watch.not_called(calls);
     assert!(unused.is_empty(), "every function is watched: {unused:?}");
 }
 
@@ -48,14 +65,18 @@ fn a_host_that_traps_floating_point_exceptions_flies() {
     let trapping = || {
         // A trap would end this process.
         watch::trap();
-        flights::vehicles().for_each(|vehicle| flights::short(&Api::load(), vehicle));
+        flights::vehicles().for_each(|vehicle| flights::short(&fmi2::Api::load(), vehicle));
+        flights::vehicles().for_each(versions::short);
     };
     std::thread::spawn(trapping).join().unwrap();
 }
 
 #[test]
 fn a_whole_flight_fits_into_a_thread_of_128_kb() {
-    let fly = || flights::vehicles().for_each(|vehicle| flights::short(&Api::load(), vehicle));
+    let fly = || {
+        flights::vehicles().for_each(|vehicle| flights::short(&fmi2::Api::load(), vehicle));
+        flights::vehicles().for_each(versions::short);
+    };
     // More than is there would end this process.
     std::thread::Builder::new().stack_size(SMALL_THREAD).spawn(fly).unwrap().join().unwrap();
 }
@@ -74,4 +95,4 @@ fn the_watch_sees_exceptions_and_stack() {
 }
 
 /// Both interfaces.
-const INTERFACES: [Type; 2] = [Type::CO_SIMULATION, Type::MODEL_EXCHANGE];
+const INTERFACES: [Interface; 2] = [Interface::CoSimulation, Interface::ModelExchange];

@@ -49,7 +49,7 @@ impl Libraries {
         Ok(libraries)
     }
 
-    /// Those of a package, whose FMU of FMI 2.0 this is.
+    /// Those of a package, whose FMU of FMI 2.0 this is, for a vehicle in files: a component reads none.
     pub fn of_package(package: &Path) -> Result<Self> {
         let mut libraries = Self::default();
         for platform in PLATFORMS {
@@ -58,7 +58,7 @@ impl Libraries {
             let content = universal::part(&content, platform)?.to_vec();
             libraries.add(platform, content).with_context(|| shown(package))?;
         }
-        libraries.component = entry(&of(Standard::Fmi3, package), &wasm::name()).ok();
+        libraries.missing.push("without WebAssembly: a component reads no files".to_string());
         libraries.licenses = Some(entries(package, "documentation/licenses/")?);
         Ok(libraries)
     }

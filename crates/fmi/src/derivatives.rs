@@ -91,6 +91,7 @@ impl<M: Model> Instance<M> {
         seed: &[f64],
         mut write: impl FnMut(usize, f64),
     ) -> Outcome {
+        Self::tangent()?;
         for (&reference, &change) in unknowns.iter().zip(seed) {
             check_change(variable::<M>(reference, &REAL)?, change)?;
         }

@@ -176,6 +176,9 @@ pub enum Failure {
         /// Name of the variable.
         variable: &'static str,
     },
+    /// A value of a run that failed before it had any.
+    #[error("there is no value: an error ended the run before it started; reset the instance")]
+    NeverStarted,
     /// A value that the variable cannot take.
     #[error(transparent)]
     Refused(#[from] Refused),

@@ -119,8 +119,11 @@ impl<M: Model> Instance<M> {
         self.life.phase
     }
 
-    /// Ends the run: the master can reset, or restore an FMU state.
+    /// Ends the run: the master can reset, or restore an FMU state. A run that has not started has no values.
     pub(crate) fn fail(&mut self) {
+        if self.before_start() {
+            self.simulation = None;
+        }
         self.life.phase = Phase::Error;
     }
 
@@ -147,6 +150,7 @@ impl<M: Model> Instance<M> {
     pub(crate) fn with_model(&mut self) -> Result<(&M, &mut M::Simulation), Failure> {
         let simulation = match &mut self.simulation {
             Some(simulation) => simulation,
+            None if self.life.phase == Phase::Error => return Err(Failure::NeverStarted),
             slot @ None => {
                 let mut simulation = start(&self.model, self.life.experiment)?;
                 self.pending.hand_over(&mut simulation);

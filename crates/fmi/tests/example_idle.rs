@@ -7,12 +7,13 @@ mod master;
 use fmi_model::identity::guid;
 use fmi_model::v2::sys::{Status, Type};
 use idle::Idle;
-use master::{Record, Sink, callbacks, fuzz, reference};
+use master::v2::callbacks;
+use master::{Api as _, Record, Sink, fuzz, reference};
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
 
-type Api = master::Api<Idle>;
-type Slave<'a> = master::Slave<'a, Idle>;
+type Api = master::v2::Api<Idle>;
+type Slave<'a> = master::Slave<'a, Api>;
 
 fn assert_refused(record: &Record, function: &str, capability: &str) {
     assert_eq!((record.status, record.category.as_str()), (Status::Error, "logStatusError"));
@@ -66,5 +67,6 @@ fn capabilities_that_a_model_does_not_have_are_refused_by_name() {
 #[test]
 fn random_calls_never_crash_a_model_without_capabilities() {
     // Neither model exchange nor an error is in reach.
-    fuzz::play::<Idle>(4);
+    fuzz::play::<Api>(4);
+    fuzz::play::<master::v3::Api<Idle>>(5);
 }

@@ -4,7 +4,7 @@ use super::entry::{Environment, enter, look};
 use crate::abi::room;
 use crate::failure::{Failure, Outcome};
 use crate::instance::Instance as Of;
-use crate::model::Model;
+use crate::model::{Model, Simulation};
 use crate::steps::Reach;
 use crate::table::MOST_KNOWNS;
 use crate::v3::calls;
@@ -64,9 +64,11 @@ pub unsafe fn fmi3DoStep<M: Model>(
         }
     };
     let [mut end, mut target] = [0.0; 2];
-    let reach = if environment.update.is_some() { Reach::Once } else { Reach::End };
+    // A model that cannot pause within a step has not promised to.
+    let looks = environment.update.is_some() && M::Simulation::INTERNAL_STEP.is_some();
+    let reach = if looks { Reach::Once } else { Reach::End };
     // Where the inputs are when the step ends is asked before it begins.
-    let mut asks = environment.update.is_some() && environment.moves_inputs;
+    let mut asks = looks && environment.moves_inputs;
     let mut inputs = [0.0; MOST_KNOWNS];
     let first = |instance: &mut Of<M>| {
         answers()?;

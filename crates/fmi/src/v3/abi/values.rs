@@ -70,16 +70,18 @@ values! {
 
 /// Functions of a type that no variable has: they refuse every variable.
 macro_rules! no_values {
-    ($($function:ident $call:ident $kind:ident ($($argument:ident: $type:ty),*);)*) => {
+    ($($function:ident $call:ident $kind:ident ($($argument:ident: $type:ty),*) $($count:ident)?;)*) => {
         $(
             pub unsafe fn $function<M: Model>(
                 instance: Instance,
                 valueReferences: *const ValueReference,
                 nValueReferences: usize,
-                $($argument: $type),*
+                $($argument: $type,)*
+                $($count: usize,)?
             ) -> Status {
                 $(let _ = $argument;)*
                 let body = |_: &mut Of<M>| {
+                    $(as_many("nValues", $count, nValueReferences)?;)?
                     // SAFETY: the master passes an array of the length it states.
                     let references =
                         unsafe { input("valueReferences", valueReferences, nValueReferences) }?;
@@ -93,26 +95,26 @@ macro_rules! no_values {
 }
 
 no_values! {
-    fmi3GetFloat32 GET_FLOAT32 FLOAT32 (values: *mut sys::Float32, nValues: usize);
-    fmi3GetInt8 GET_INT8 INT8 (values: *mut sys::Int8, nValues: usize);
-    fmi3GetUInt8 GET_UINT8 UINT8 (values: *mut sys::UInt8, nValues: usize);
-    fmi3GetInt16 GET_INT16 INT16 (values: *mut sys::Int16, nValues: usize);
-    fmi3GetUInt16 GET_UINT16 UINT16 (values: *mut sys::UInt16, nValues: usize);
-    fmi3GetUInt32 GET_UINT32 UINT32 (values: *mut sys::UInt32, nValues: usize);
-    fmi3GetUInt64 GET_UINT64 UINT64 (values: *mut sys::UInt64, nValues: usize);
-    fmi3GetString GET_STRING STRING (values: *mut FmiString, nValues: usize);
-    fmi3GetBinary GET_BINARY BINARY (valueSizes: *mut usize, values: *mut Binary, nValues: usize);
+    fmi3GetFloat32 GET_FLOAT32 FLOAT32 (values: *mut sys::Float32) nValues;
+    fmi3GetInt8 GET_INT8 INT8 (values: *mut sys::Int8) nValues;
+    fmi3GetUInt8 GET_UINT8 UINT8 (values: *mut sys::UInt8) nValues;
+    fmi3GetInt16 GET_INT16 INT16 (values: *mut sys::Int16) nValues;
+    fmi3GetUInt16 GET_UINT16 UINT16 (values: *mut sys::UInt16) nValues;
+    fmi3GetUInt32 GET_UINT32 UINT32 (values: *mut sys::UInt32) nValues;
+    fmi3GetUInt64 GET_UINT64 UINT64 (values: *mut sys::UInt64) nValues;
+    fmi3GetString GET_STRING STRING (values: *mut FmiString) nValues;
+    fmi3GetBinary GET_BINARY BINARY (valueSizes: *mut usize, values: *mut Binary) nValues;
     fmi3GetClock GET_CLOCK CLOCK (values: *mut Boolean);
-    fmi3SetFloat32 SET_FLOAT32 FLOAT32 (values: *const sys::Float32, nValues: usize);
-    fmi3SetInt8 SET_INT8 INT8 (values: *const sys::Int8, nValues: usize);
-    fmi3SetUInt8 SET_UINT8 UINT8 (values: *const sys::UInt8, nValues: usize);
-    fmi3SetInt16 SET_INT16 INT16 (values: *const sys::Int16, nValues: usize);
-    fmi3SetUInt16 SET_UINT16 UINT16 (values: *const sys::UInt16, nValues: usize);
-    fmi3SetUInt32 SET_UINT32 UINT32 (values: *const sys::UInt32, nValues: usize);
-    fmi3SetUInt64 SET_UINT64 UINT64 (values: *const sys::UInt64, nValues: usize);
-    fmi3SetString SET_STRING STRING (values: *const FmiString, nValues: usize);
+    fmi3SetFloat32 SET_FLOAT32 FLOAT32 (values: *const sys::Float32) nValues;
+    fmi3SetInt8 SET_INT8 INT8 (values: *const sys::Int8) nValues;
+    fmi3SetUInt8 SET_UINT8 UINT8 (values: *const sys::UInt8) nValues;
+    fmi3SetInt16 SET_INT16 INT16 (values: *const sys::Int16) nValues;
+    fmi3SetUInt16 SET_UINT16 UINT16 (values: *const sys::UInt16) nValues;
+    fmi3SetUInt32 SET_UINT32 UINT32 (values: *const sys::UInt32) nValues;
+    fmi3SetUInt64 SET_UINT64 UINT64 (values: *const sys::UInt64) nValues;
+    fmi3SetString SET_STRING STRING (values: *const FmiString) nValues;
     fmi3SetBinary SET_BINARY BINARY
-        (valueSizes: *const usize, values: *const Binary, nValues: usize);
+        (valueSizes: *const usize, values: *const Binary) nValues;
     fmi3SetClock SET_CLOCK CLOCK (values: *const Boolean);
     fmi3GetIntervalDecimal GET_INTERVAL_DECIMAL CLOCK
         (intervals: *mut sys::Float64, qualifiers: *mut sys::Enumeration);

@@ -1,17 +1,24 @@
 //! The master that plays: its instance, what it knows of it, and the arguments it passes.
 
-use super::super::{Api, Random, Slave, all_reals};
+use super::super::{Api, Random, Slave, all_reals, parts};
+use fmi_model::instance::Interface;
 use fmi_model::phase::Phase;
-use fmi_model::v2::sys::{Component, FmuState, Status, ValueReference};
+use fmi_model::standard::Standard;
+use fmi_model::status::Status;
 use fmi_model::{Kind, Model, Simulation, Variable, table};
+use std::collections::BTreeMap;
+use std::ffi::c_void;
 use std::fmt::Debug;
 use std::ptr::null_mut;
+use std::rc::Rc;
 
 /// One argument in so many is unsound, of each kind of fault.
 pub const RARELY: u64 = 24;
 /// What stands where a function has not written: no value of any variable.
 pub const BLANK: f64 = -1.234e-77;
 pub const BLANK_INTEGER: i32 = -77_777;
+/// Value reference of the independent variable of FMI 3.0.
+const TIME: u32 = 2_147_483_647;
 
 /// An array as a careless master passes it: sound, NULL or misaligned, with a guard at its end.
 pub struct Array<T> {
@@ -46,24 +53,48 @@ impl<T: Copy> Array<T> {
 /// A saved state: what it has to restore.
 #[derive(Clone)]
 pub struct Saved {
-    pub state: FmuState,
+    pub state: *mut c_void,
     pub phase: Phase,
     pub has_experiment: bool,
     pub bytes: Vec<u8>,
 }
 
+/// What can be seen of an instance: its state, if it can be saved, or else the values that can be read.
+pub enum Seen {
+    Saved(u8, Vec<u8>),
+    Values(Vec<(u32, u64)>),
+}
+
+impl Seen {
+    /// Whether nothing has changed but the state by number; a value that is not known of both counts for nothing.
+    pub fn same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Saved(_, one), Self::Saved(_, other)) => one == other,
+            (Self::Values(one), Self::Values(other)) => {
+                let values: BTreeMap<_, _> = other.iter().copied().collect();
+                one.iter().all(|(i, value)| values.get(i).is_none_or(|other| other == value))
+            }
+            _ => panic!("seen in two ways"),
+        }
+    }
+}
+
 /// An instance, the state in which it has to be, and FMU states with theirs.
-pub struct Player<'a, M: Model> {
-    pub slave: Slave<'a, M>,
-    /// For model exchange, not for co-simulation.
-    exchange: bool,
+pub struct Player<'a, A: Api> {
+    pub slave: Rc<Slave<'a, A>>,
+    pub interface: Interface,
     /// The instance, or NULL, for the next call.
-    pub c: Component,
+    pub c: *mut c_void,
     pub phase: Phase,
     pub has_experiment: bool,
     pub saved: Vec<Saved>,
     /// Whether the last call had an argument that has to be refused.
     pub unsound: bool,
+    /// Whether the last step ended the simulation.
+    pub ended: bool,
+    /// Whether a step is under way, and what was done within the last one.
+    pub within: bool,
+    pub looked: bool,
 }
 
 pub fn real<M: Model>(variable: &Variable<M>) -> bool {
@@ -80,24 +111,37 @@ pub fn boolean<M: Model>(variable: &Variable<M>) -> bool {
 
 type Kinds<M> = fn(&Variable<M>) -> bool;
 
-impl<'a, M: Model> Player<'a, M> {
-    pub fn new(api: &'a Api<M>, exchange: bool) -> Self {
-        let slave = if exchange { Slave::exchange(api) } else { Slave::new(api) };
-        let c = slave.c;
-        let (phase, has_experiment) = (Phase::Instantiated, false);
-        Self { slave, exchange, c, phase, has_experiment, saved: Vec::new(), unsound: false }
+impl<'a, A: Api> Player<'a, A> {
+    pub fn new(slave: Slave<'a, A>, interface: Interface) -> Self {
+        let (c, phase, no) = (slave.c, Phase::Instantiated, false);
+        Self {
+            slave: Rc::new(slave),
+            interface,
+            c,
+            phase,
+            has_experiment: no,
+            saved: Vec::new(),
+            unsound: no,
+            ended: no,
+            within: no,
+            looked: no,
+        }
     }
 
     /// Value references: half of the arrays have fitting ones only, the others whatever comes.
-    pub fn references(random: &mut Random, kinds: Kinds<M>, settable: bool) -> Vec<ValueReference> {
+    pub fn references(random: &mut Random, kinds: Kinds<A::Model>, settable: bool) -> Vec<u32> {
+        let variables = A::Model::VARIABLES;
         let fit = |i: &u32| {
-            let variable = &M::VARIABLES[*i as usize];
+            let variable = &variables[*i as usize];
             kinds(variable) && (!settable || variable.settable())
         };
-        let fitting: Vec<_> = (0..M::VARIABLES.len() as u32).filter(fit).collect();
+        let fitting: Vec<_> = (0..variables.len() as u32).filter(fit).collect();
         let any = random.below(2) == 0 || fitting.is_empty();
         let one = |random: &mut Random| match any {
-            true => random.below(M::VARIABLES.len() as u64 + 2) as u32,
+            true => match random.below(variables.len() as u64 + 3) as u32 {
+                beyond if beyond as usize > variables.len() + 1 => TIME,
+                reference => reference,
+            },
             false => random.pick(&fitting),
         };
         (0..random.below(4)).map(|_| one(random)).collect()
@@ -114,9 +158,9 @@ impl<'a, M: Model> Player<'a, M> {
     pub fn read<T: Copy + PartialEq + Debug>(
         &mut self,
         random: &mut Random,
-        kinds: Kinds<M>,
+        kinds: Kinds<A::Model>,
         blank: T,
-        call: impl FnOnce(Component, *const ValueReference, usize, *mut T) -> Status,
+        call: impl FnOnce(*mut c_void, *const u32, usize, *mut T) -> Status,
     ) -> (Status, Vec<T>) {
         let references = Self::references(random, kinds, false);
         let count = references.len();
@@ -135,10 +179,11 @@ impl<'a, M: Model> Player<'a, M> {
     pub fn write<T: Copy + PartialEq + Debug>(
         &mut self,
         random: &mut Random,
-        kinds: Kinds<M>,
+        kinds: Kinds<A::Model>,
         element: fn(&mut Random) -> T,
-        set: impl FnOnce(Component, *const ValueReference, usize, *const T) -> Status,
-        get: impl Fn(Component, *const ValueReference, usize, *mut T) -> Status,
+        as_read: fn(T) -> T,
+        set: impl FnOnce(*mut c_void, *const u32, usize, *const T) -> Status,
+        get: impl Fn(*mut c_void, *const u32, usize, *mut T) -> Status,
     ) -> Status {
         let references = Self::references(random, kinds, true);
         let count = references.len();
@@ -153,7 +198,12 @@ impl<'a, M: Model> Player<'a, M> {
                 let last = (0..count).rfind(|&k| references.items[k] == *reference).unwrap_or(i);
                 let mut found = given[last];
                 assert_eq!(get(self.c, reference, 1, &mut found), Status::Ok);
-                assert_eq!(found, given[last], "{}", M::VARIABLES[*reference as usize].name);
+                assert_eq!(
+                    found,
+                    as_read(given[last]),
+                    "{}",
+                    A::Model::VARIABLES[*reference as usize].name
+                );
             }
         }
         status
@@ -163,9 +213,9 @@ impl<'a, M: Model> Player<'a, M> {
     pub fn read_states(
         &mut self,
         random: &mut Random,
-        call: impl FnOnce(Component, *mut f64, usize) -> Status,
+        call: impl FnOnce(*mut c_void, *mut f64, usize) -> Status,
     ) -> Status {
-        let states = table::states::<M>();
+        let states = table::states::<A::Model>();
         let count = states.saturating_sub(usize::from(random.below(8) == 0));
         let values = Array::new(random, vec![BLANK; count], BLANK);
         self.unsound = !values.sound || count != states;
@@ -190,35 +240,45 @@ impl<'a, M: Model> Player<'a, M> {
         (!null).then(|| self.saved[random.below(self.saved.len() as u64) as usize].clone())
     }
 
-    /// All that can be seen of the instance: its state, or else its values.
-    pub fn bytes(&self) -> Vec<u8> {
-        if M::Simulation::SAVING.is_none() {
-            let (_, values) = self.slave.reals(&all_reals::<M>());
-            return values.into_iter().flat_map(f64::to_le_bytes).collect();
+    /// What can be seen of the instance. An output may not be asked for before the start: the refusal would
+    /// end a run of FMI 3.0.
+    pub fn seen(&self) -> Seen {
+        if <A::Model as Model>::Simulation::SAVING.is_some() && !self.within {
+            let (phase, rest) = parts(self.slave.present());
+            return Seen::Saved(phase, rest);
         }
-        let state = self.slave.save();
-        let bytes = self.slave.bytes(state);
-        self.slave.free(state);
-        bytes
+        let mut references = all_reals::<A::Model>();
+        if [Phase::Instantiated, Phase::InitializationMode, Phase::Error].contains(&self.phase) {
+            references.retain(|&i| A::Model::VARIABLES[i as usize].settable());
+        }
+        let (_, values) = self.slave.reals(&references);
+        Seen::Values(references.into_iter().zip(values.into_iter().map(f64::to_bits)).collect())
     }
 
-    /// The state after a call that the standard allows.
-    pub fn advance(&mut self, name: &str, status: Status) {
+    /// The state after a call with an instance, which the standard allows or not.
+    pub fn advance(&mut self, name: &str, status: Status, allowed: bool) {
+        let ends_run = A::STANDARD == Standard::Fmi3 && status == Status::Error;
+        if ends_run || !allowed {
+            self.phase = if ends_run { Phase::Error } else { self.phase };
+            return;
+        }
+        let (exchange, name) = (self.interface == Interface::ModelExchange, &name[4..]);
         self.phase = match (name, status) {
-            ("fmi2EnterInitializationMode", Status::Ok) => Phase::InitializationMode,
-            ("fmi2ExitInitializationMode", Status::Ok) if self.exchange => Phase::EventMode,
-            ("fmi2ExitInitializationMode", Status::Ok) => Phase::StepComplete,
-            ("fmi2EnterEventMode", Status::Ok) => Phase::EventMode,
-            ("fmi2EnterContinuousTimeMode", Status::Ok) => Phase::ContinuousTimeMode,
-            ("fmi2ExitInitializationMode", _) => Phase::Error,
-            ("fmi2DoStep", Status::Discard) => Phase::StepFailed,
-            ("fmi2Terminate", Status::Ok) => Phase::Terminated,
-            ("fmi2Reset", Status::Ok) => Phase::Instantiated,
+            ("EnterInitializationMode", Status::Ok) => Phase::InitializationMode,
+            ("ExitInitializationMode", Status::Ok) if exchange => Phase::EventMode,
+            ("ExitInitializationMode", Status::Ok) => Phase::StepComplete,
+            ("EnterEventMode", Status::Ok) => Phase::EventMode,
+            ("EnterContinuousTimeMode", Status::Ok) => Phase::ContinuousTimeMode,
+            ("ExitInitializationMode", _) => Phase::Error,
+            ("DoStep", Status::Discard) if A::STANDARD == Standard::Fmi2 => Phase::StepFailed,
+            ("DoStep", Status::Ok) if self.ended => Phase::StepFailed,
+            ("Terminate", Status::Ok) => Phase::Terminated,
+            ("Reset", Status::Ok) => Phase::Instantiated,
             _ => self.phase,
         };
         match (name, status) {
-            ("fmi2Reset", _) => self.has_experiment = false,
-            ("fmi2SetupExperiment", Status::Ok) => self.has_experiment = true,
+            ("Reset", _) => self.has_experiment = false,
+            ("SetupExperiment", Status::Ok) => self.has_experiment = true,
             _ => {}
         }
     }

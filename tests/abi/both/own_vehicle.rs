@@ -1,11 +1,15 @@
 //! A package with data of its own, as a master instantiates it.
 
-use crate::common::{Api, Slave, reference};
+use super::{Api, Slave};
+use crate::common::reference;
+use crate::master::Api as _;
 use ahv::data::{Data, OwnFile, OwnFiles, PARKER2007, VEHICLE};
 use ahv::flight::Setup;
 use ahv::variables::TABLE;
 use fmi_model::identity::{guid, guid_of};
-use fmi_model::v2::sys::{Status, Type};
+use fmi_model::instance::Interface;
+use fmi_model::standard::Standard;
+use fmi_model::status::Status;
 use fmi_model::{Kind, Model, Role, location};
 use std::fs;
 use std::path::Path;
@@ -25,18 +29,21 @@ fn setup(files: &OwnFiles) -> Setup {
     Setup::of(Data::with(files).unwrap())
 }
 
-/// A folder of resources with these files; its name has what a URI encodes.
+/// A folder of resources with these files, and how a master names it; its name has what a URI encodes.
 fn resources(files: &OwnFiles) -> (TempDir, String) {
     let directory = TempDir::with_prefix("mine 100% grün ").unwrap();
     for file in [&files.vehicle, &files.coefficients].into_iter().flatten() {
         fs::write(directory.path().join(&file.name), &file.text).unwrap();
     }
-    let uri = location::uri(directory.path());
-    (directory, uri)
+    let place = match Api::STANDARD {
+        Standard::Fmi2 => location::uri(directory.path()),
+        Standard::Fmi3 => directory.path().to_str().unwrap().to_string(),
+    };
+    (directory, place)
 }
 
 fn instance<'a>(api: &'a Api, guid: &str, folder: &str) -> Result<Slave<'a>, String> {
-    let made = Slave::of_package(api, Type::CO_SIMULATION, guid, Some(folder), false);
+    let made = Slave::of_package(api, Interface::CoSimulation, guid, Some(folder), false);
     made.map_err(|log| {
         assert_eq!((log.len(), log[0].status), (1, Status::Error), "{log:?}");
         log[0].message.clone()
@@ -57,7 +64,7 @@ fn an_own_vehicle_has_its_own_defaults_items_and_flight() {
         let path = directory.path().to_str().unwrap();
         for folder in [uri.clone(), format!("{uri}/"), path.to_string()] {
             let own = instance(&api, &token, &folder).unwrap();
-            assert_eq!((own.setup(), own.enter()), (Status::Ok, Status::Ok));
+            assert_eq!(own.begin(), Status::Ok);
             for variable in &TABLE {
                 let Role::Parameter { .. } = variable.role else { continue };
                 let value = variable.start(&setup).unwrap();
@@ -65,8 +72,8 @@ fn an_own_vehicle_has_its_own_defaults_items_and_flight() {
                     assert_eq!(own.get(variable.name), value, "{}", variable.name);
                 }
             }
-            let has_own = if files.coefficients.is_some() { Status::Ok } else { Status::Error };
-            assert_eq!(own.set_integer("aero", 4), has_own);
+            let has_own = if files.coefficients.is_some() { Status::Ok } else { Api::REFUSED };
+            assert_eq!(own.set_enumeration("aero", 4), has_own);
             assert_eq!(own.exit(), Status::Ok);
             for step in 0..20 {
                 assert_eq!(own.step(f64::from(step) * 0.01, 0.01), Status::Ok);
@@ -155,7 +162,7 @@ fn data_that_are_not_those_of_the_description_are_refused_by_name() {
     }
     let refused = instance(&api, &token, &uri).err().unwrap();
     assert!(refused.contains(&format!("belong to {}", guid::<Setup>())), "{refused}");
-    let nowhere = Slave::of_package(&api, Type::CO_SIMULATION, &token, None, false);
+    let nowhere = Slave::of_package(&api, Interface::CoSimulation, &token, None, false);
     let log = nowhere.err().unwrap();
     assert!(log[0].message.contains("does not say where the resources are"), "{log:?}");
 }

@@ -1,9 +1,12 @@
-//! Reading and setting variables, and instantiation, through the shared library.
+//! Arguments of FMI 2.0: instantiation, types, NULL.
 
-use crate::common::{Api, Sink, Slave, callbacks, reference};
+use crate::common::fmi2::{Api, Slave};
+use crate::common::reference;
+use crate::master::v2::callbacks;
+use crate::master::{Api as _, Sink};
 use ahv::variables::TABLE;
 use fmi_model::v2::sys::{CallbackFunctions, Component, FmiString, Status, Type};
-use fmi_model::{Kind, Role, identity::guid};
+use fmi_model::{Kind, identity::guid};
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
@@ -121,44 +124,6 @@ fn null_arrays_and_absurd_lengths_are_refused_and_empty_ones_need_no_array() {
 }
 
 #[test]
-fn a_refused_value_names_variable_and_value_and_nothing_of_the_call_is_set() {
-    let api = Api::load();
-    let slave = Slave::new(&api);
-    let (good, after) = (reference("alpha0"), reference("q0"));
-    assert_eq!(slave.set("alpha0", 0.01), Status::Ok);
-    let refused = [
-        ("delta_e", f64::NAN, "delta_e = NaN"),
-        ("phi", f64::INFINITY, "phi = inf"),
-        ("mach0", f64::NEG_INFINITY, "mach0 = -inf"),
-        ("fuel_fraction", 1.5, "fuel_fraction = 1.5"),
-        ("V", 2000.0, "V = 2000"),
-        ("alpha_trim", 0.0, "alpha_trim = 0"),
-    ];
-    let before = slave.save();
-    for (name, value, reason) in refused {
-        let references = [good, reference(name), after];
-        assert_eq!(slave.set_reals(&references, &[0.02, value, 0.02]), Status::Error, "{name}");
-        let record = slave.message();
-        assert_eq!(record.category, "logStatusError");
-        assert!(record.message.contains(reason), "{}", record.message);
-        let now = slave.save();
-        assert_eq!(slave.bytes(before), slave.bytes(now), "{name}");
-        slave.free(now);
-    }
-    slave.free(before);
-    let unknown = [good, u32::MAX];
-    assert_eq!(slave.set_reals(&unknown, &[0.03, 0.0]), Status::Error);
-    assert!(slave.message().message.contains("value reference 4294967295 is unknown"));
-    assert_eq!(slave.set_integer("input_mode", 3), Status::Error);
-    assert!(slave.message().message.contains("input_mode = 3"));
-    assert_eq!(slave.set_boolean("trim", 2), Status::Error);
-    assert!(slave.message().message.contains("trim = 2"));
-    assert_eq!(slave.setup(), Status::Ok);
-    assert_eq!(slave.enter(), Status::Ok);
-    assert_eq!(slave.get("alpha0"), 0.01);
-}
-
-#[test]
 fn every_variable_is_read_by_the_function_of_its_type_and_refused_by_the_others() {
     let api = Api::load();
     let slave = Slave::flying(&api);
@@ -192,90 +157,10 @@ fn every_variable_is_read_by_the_function_of_its_type_and_refused_by_the_others(
 }
 
 #[test]
-fn parameters_can_be_set_until_initialisation_ends_and_inputs_always() {
+fn a_boolean_is_0_or_1() {
     let api = Api::load();
     let slave = Slave::new(&api);
-    let settable = |role| matches!(role, Role::Parameter { .. } | Role::Input(_));
-    let set_all = |slave: &Slave| {
-        for (vr, variable) in (0..).zip(&TABLE).filter(|(_, variable)| settable(variable.role)) {
-            // A factor cannot be zero.
-            let zero = variable.range.is_none_or(|[min, max]| (min..=max).contains(&0.0));
-            let value = match variable.name {
-                "mach0" => 8.0,
-                _ if zero => 0.0,
-                _ => 1.0,
-            };
-            if matches!(variable.kind, Kind::Real(_)) && variable.name != "altitude0" {
-                assert_eq!(slave.set_reals(&[vr], &[value]), Status::Ok, "{}", variable.name);
-            }
-        }
-    };
-    set_all(&slave);
-    assert_eq!(slave.set_integer("configuration", 1), Status::Ok);
-    assert_eq!(slave.setup(), Status::Ok);
-    assert_eq!(slave.enter(), Status::Ok);
-    let before = slave.get("alpha");
-    assert_eq!(slave.set("mach0", 7.5), Status::Ok);
-    assert_ne!(slave.get("alpha"), before, "outputs follow parameters during initialisation");
-    set_all(&slave);
-    assert_eq!(slave.exit(), Status::Ok);
-    assert_eq!(slave.get("alpha"), before);
-    assert_eq!(slave.set("mach0", 8.0), Status::Error);
-    assert!(slave.message().message.contains("mach0 = 8"));
-    assert_eq!(slave.set_boolean("trim", 0), Status::Error);
-    assert_eq!(slave.set("delta_e", 0.01), Status::Ok);
-}
-
-#[test]
-fn values_read_after_setting_an_input_fit_that_input_without_a_step() {
-    let api = Api::load();
-    let slave = Slave::flying(&api);
-    let before = (slave.get("moment"), slave.get("delta_e_effective"), slave.get("der(q)"));
-    assert_eq!(slave.set("delta_e", 0.01), Status::Ok);
-    assert!((slave.get("delta_e_effective") - before.1 - 0.01).abs() < 1e-15);
-    assert!(slave.get("moment") != before.0 && slave.get("der(q)") != before.2);
-    assert_eq!(slave.set("delta_e", 0.0), Status::Ok);
-    assert_eq!(slave.get("moment"), before.0);
-}
-
-#[test]
-fn directional_derivatives_write_all_or_nothing_and_name_what_they_refuse() {
-    let api = Api::load();
-    let slave = Slave::flying(&api);
-    let c = slave.c;
-    let rates = ["der(q)", "der(alpha)"].map(reference);
-    let both = ["q", "delta_e"].map(reference);
-    let untouched = 123.0;
-    let call = |unknowns: &[u32], knowns: &[u32], seed: &[f64]| {
-        let mut change = vec![untouched; unknowns.len()];
-        let (n, k) = (unknowns.len(), knowns.len());
-        let (unknowns, knowns) = (unknowns.as_ptr(), knowns.as_ptr());
-        let out = change.as_mut_ptr();
-        // SAFETY: arrays of the lengths given.
-        let status =
-            unsafe { (api.directional_derivative)(c, unknowns, n, knowns, k, seed.as_ptr(), out) };
-        (status, change)
-    };
-    let (status, [pitch, incidence]) = {
-        let (status, change) = call(&rates, &both[..1], &[1.0]);
-        (status, [change[0], change[1]])
-    };
-    assert_eq!((status, incidence), (Status::Ok, 1.0), "alpha' = q - gamma'");
-    let (_, elevator) = call(&rates, &both[1..], &[1.0]);
-    let (_, sum) = call(&rates, &both, &[2.0, 3.0]);
-    let expected = 2.0 * pitch + 3.0 * elevator[0];
-    assert!((sum[0] - expected).abs() <= 1e-14 * expected.abs());
-
-    let refused = [
-        (call(&[rates[0], reference("alpha_trim")], &both, &[1.0; 2]), "alpha_trim"),
-        (call(&rates, &[both[0], reference("fuel_fraction")], &[1.0; 2]), "fuel_fraction"),
-        (call(&rates, &both, &[1.0, f64::NAN]), "delta_e"),
-        (call(&[rates[0], 10_000], &both, &[1.0; 2]), "10000"),
-    ];
-    let mut messages = slave.log().into_iter();
-    for ((status, change), named) in refused {
-        assert_eq!((status, change), (Status::Error, vec![untouched; 2]), "{named}");
-        let record = messages.next().unwrap();
-        assert!(record.message.contains(named), "{record:?}");
-    }
+    // SAFETY: arrays of one element.
+    let set = |slave: &Slave| unsafe { (api.set_boolean)(slave.c, &reference("trim"), 1, &2) };
+    slave.refuses(Status::Error, &["trim = 2"], set);
 }

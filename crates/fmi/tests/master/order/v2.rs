@@ -1,17 +1,18 @@
-//! Legal order of calls, as the standard has it.
+//! Legal order of calls of FMI 2.0, and each function with harmless arguments.
 
-use super::{Api, Slave};
+use super::{Order, call_on_states, first, nominals};
+use crate::master::Slave;
+use crate::master::v2::Api;
 use fmi_model::phase::Phase;
-use fmi_model::standard::Standard;
 use fmi_model::v2::sys::{EventInfo, Status, StatusKind};
-use fmi_model::{Kind, Model, Role, Simulation, Variable, table};
+use fmi_model::{Kind, Model, Role, Simulation};
 use std::ptr::{null, null_mut};
 
 /// The tables of FMI 2.0.5, sections 4.2.4 and 3.2.3, typed from the standard: columns instantiated,
 /// initialization mode, step complete, step in progress, step failed, step canceled, terminated,
 /// error, fatal, event mode, continuous-time mode. Numbered conditions count as x.
 #[rustfmt::skip]
-pub const STANDARD: [(&str, &str); 40] = [
+const TABLE: [(&str, &str); 40] = [
     ("fmi2SetDebugLogging",          "xxxxxxxx xx"),
     ("fmi2SetupExperiment",          "x          "),
     ("fmi2EnterInitializationMode",  "x          "),
@@ -54,25 +55,37 @@ pub const STANDARD: [(&str, &str); 40] = [
     ("fmi2GetStringStatus",          "  xxx x    "),
 ];
 
-/// Whether the standard allows a call in a state.
-pub fn allows(name: &str, phase: Phase) -> bool {
-    let (_, row) = STANDARD.iter().find(|(row, _)| *row == name).expect(name);
-    row.as_bytes()[phase as usize] == b'x'
+impl<M: Model> Order for Api<M> {
+    const TABLE: &'static [(&'static str, &'static str)] = &TABLE;
+    const COLUMNS: &'static [Phase] = &[
+        Phase::Instantiated,
+        Phase::InitializationMode,
+        Phase::StepComplete,
+        Phase::StepInProgress,
+        Phase::StepFailed,
+        Phase::StepCanceled,
+        Phase::Terminated,
+        Phase::Error,
+        Phase::Fatal,
+        Phase::EventMode,
+        Phase::ContinuousTimeMode,
+    ];
+
+    fn prepare(slave: &Slave<Self>) {
+        assert_eq!(slave.setup(), Status::Ok);
+    }
+    fn call(slave: &Slave<Self>, other: &Slave<Self>, name: &str) -> Status {
+        call(slave, other, name)
+    }
+    fn legal_result(name: &str, phase: Phase) -> Status {
+        legal_result::<M>(name, phase)
+    }
 }
 
-/// Value reference of the first variable that fits, or of none.
-fn first<M: Model>(fits: fn(&Variable<M>) -> bool) -> Vec<u32> {
-    (0..).zip(M::VARIABLES).filter(|(_, variable)| fits(variable)).map(|(i, _)| i).take(1).collect()
-}
-
-/// Calls a function with harmless arguments; `other` has a state that can be restored.
-fn call<M: Model>(slave: &Slave<M>, other: &Slave<M>, name: &str) -> Status {
+fn call<M: Model>(slave: &Slave<Api<M>>, other: &Slave<Api<M>>, name: &str) -> Status {
     let (api, c) = (slave.api, slave.c);
-    let mut state = null_mut();
     let (mut real, mut integer, mut text, mut status) = (0.0, 0, null(), Status::Ok);
-    let (mut size, mut flag, one) = (0, 0, [0.0]);
-    let nominal = |i| table::state::<M>(i).nominal.unwrap_or(1.0);
-    let mut numbers: Vec<_> = (0..table::states::<M>()).map(nominal).collect();
+    let (mut flag, one, mut numbers) = (0, [0.0], nominals::<M>());
     let input = first::<M>(|variable| matches!(variable.role, Role::Input(_)));
     let enumeration = first::<M>(|variable| matches!(variable.kind, Kind::Enumeration(..)));
     let boolean = first::<M>(|variable| matches!(variable.kind, Kind::Boolean));
@@ -96,33 +109,6 @@ fn call<M: Model>(slave: &Slave<M>, other: &Slave<M>, name: &str) -> Status {
             "fmi2SetInteger" => (api.set_integer)(c, null(), 0, null()),
             "fmi2SetBoolean" => (api.set_boolean)(c, null(), 0, null()),
             "fmi2SetString" => (api.set_string)(c, null(), 0, null()),
-            "fmi2GetFMUstate" => {
-                let status = (api.get_state)(c, &mut state);
-                if status == Status::Ok {
-                    slave.free(state);
-                }
-                status
-            }
-            "fmi2FreeFMUstate" => (api.free_state)(c, &mut state),
-            "fmi2SetFMUstate"
-            | "fmi2SerializedFMUstateSize"
-            | "fmi2SerializeFMUstate"
-            | "fmi2DeSerializeFMUstate" => {
-                let saved = other.save();
-                let mut bytes = other.bytes(saved);
-                let (buffer, length) = (bytes.as_mut_ptr().cast(), bytes.len());
-                let status = match name {
-                    "fmi2SetFMUstate" => slave.load(saved),
-                    "fmi2SerializedFMUstateSize" => (api.state_size)(c, saved, &mut size),
-                    "fmi2SerializeFMUstate" => (api.serialize)(c, saved, buffer, length),
-                    _ => (api.deserialize)(c, buffer, length, &mut state),
-                };
-                other.free(saved);
-                if !state.is_null() {
-                    other.free(state);
-                }
-                status
-            }
             "fmi2GetDirectionalDerivative" => {
                 (api.directional_derivative)(c, null(), 0, null(), 0, null(), null_mut())
             }
@@ -150,7 +136,7 @@ fn call<M: Model>(slave: &Slave<M>, other: &Slave<M>, name: &str) -> Status {
             "fmi2GetRealOutputDerivatives" => {
                 (api.get_output_derivatives)(c, null(), 0, null(), null_mut())
             }
-            "fmi2DoStep" => slave.step(0.0, 0.01),
+            "fmi2DoStep" => (api.do_step)(c, 0.0, 0.01, 0),
             "fmi2CancelStep" => (api.cancel_step)(c),
             "fmi2GetStatus" => (api.get_status)(c, StatusKind::DO_STEP_STATUS, &mut status),
             "fmi2GetRealStatus" => {
@@ -165,12 +151,12 @@ fn call<M: Model>(slave: &Slave<M>, other: &Slave<M>, name: &str) -> Status {
             "fmi2GetStringStatus" => {
                 (api.get_string_status)(c, StatusKind::PENDING_STATUS, &mut text)
             }
-            other => panic!("{other} has no arguments here"),
+            _ => call_on_states(slave, other, name),
         }
     }
 }
 
-/// What a legal call with those arguments returns. The state error is that of a start that failed.
+/// The state error is that of a start that failed.
 fn legal_result<M: Model>(name: &str, phase: Phase) -> Status {
     let without = |capability: bool| if capability { Status::Ok } else { Status::Error };
     match name {
@@ -179,37 +165,5 @@ fn legal_result<M: Model>(name: &str, phase: Phase) -> Status {
         "fmi2GetStatus" | "fmi2GetIntegerStatus" | "fmi2GetStringStatus" => Status::Discard,
         "fmi2SetRealInputDerivatives" => without(M::Simulation::INPUT_DERIVATIVES.is_some()),
         _ => Status::Ok,
-    }
-}
-
-/// Every function in every state, of a model that can be saved: done or refused, and then nothing changes.
-/// `bring` takes a new instance to a state.
-pub fn follow<M: Model>(phases: &[Phase], bring: impl Fn(&Slave<M>, Phase)) {
-    let api = Api::load();
-    for &phase in phases {
-        for (name, _) in STANDARD {
-            let slave = match phase {
-                Phase::EventMode | Phase::ContinuousTimeMode => Slave::exchange(&api),
-                _ => Slave::new(&api),
-            };
-            bring(&slave, phase);
-            slave.log();
-            let other = Slave::new(&api);
-            bring(&other, Phase::Terminated);
-            let before = slave.save();
-            let status = call(&slave, &other, name);
-            if allows(name, phase) {
-                let log = slave.log();
-                assert_eq!(status, legal_result::<M>(name, phase), "{name} {phase:?} {log:?}");
-            } else {
-                assert_eq!(status, Status::Error, "{name} in {phase:?}");
-                let (message, state) = (slave.message().message, phase.name(Standard::Fmi2));
-                assert!(message.starts_with(&format!("{name}: not allowed in state {state}")));
-                let after = slave.save();
-                assert_eq!(slave.bytes(before), slave.bytes(after), "{name} changed {phase:?}");
-                slave.free(after);
-            }
-            slave.free(before);
-        }
     }
 }

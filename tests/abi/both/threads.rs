@@ -1,7 +1,9 @@
 //! Instances in threads.
 
-use crate::common::{Api, Slave, configurations};
-use fmi_model::v2::sys::Status;
+use super::{Api, Slave};
+use crate::common::configurations;
+use crate::master::Api as _;
+use fmi_model::status::Status;
 use std::thread;
 
 const THREADS: u32 = 8;

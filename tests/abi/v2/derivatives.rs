@@ -1,6 +1,8 @@
 //! Inputs that move within a step, and time derivatives of outputs.
 
-use crate::common::{Api, Slave, reference};
+use crate::common::fmi2::{Api, Slave};
+use crate::common::reference;
+use crate::master::Api as _;
 use fmi_model::v2::sys::Status;
 
 /// A flexible, sloshing vehicle.
@@ -29,12 +31,7 @@ fn set_derivatives(slave: &Slave, orders: &[i32], values: &[f64]) -> Status {
 }
 
 fn output_derivative(slave: &Slave, name: &str, order: i32) -> (Status, f64) {
-    let mut value = f64::NAN;
-    let output = reference(name);
-    // SAFETY: arrays of one element.
-    let status =
-        unsafe { (slave.api.get_output_derivatives)(slave.c, &output, 1, &order, &mut value) };
-    (status, value)
+    slave.output_derivative(name, order)
 }
 
 /// Pitch rate after the manoeuvre, flown in equal steps whose inputs follow the course by

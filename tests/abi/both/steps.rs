@@ -1,7 +1,8 @@
 //! What `fmi2DoStep` accepts, refuses and discards.
 
-use crate::common::{Api, Slave};
-use fmi_model::v2::sys::Status;
+use super::{Api, Slave};
+use crate::master::Api as _;
+use fmi_model::status::Status;
 
 #[test]
 fn senseless_steps_are_refused_and_change_nothing() {
@@ -24,10 +25,8 @@ fn senseless_steps_are_refused_and_change_nothing() {
         (0.01, f64::MAX, "a positive number up to 1e30"),
     ];
     for (point, step, reason) in refused {
-        assert_eq!(slave.step(point, step), Status::Error, "{reason}");
-        let message = slave.message().message;
-        assert!(message.contains(reason), "{message}");
-        assert_eq!(slave.last_successful_time(), 0.01);
+        slave.refuses(Status::Error, &[reason], |slave| slave.step(point, step));
+        assert_eq!(slave.time(), 0.01);
         assert_eq!(slave.bits(), before);
     }
     assert_eq!(slave.step(0.01, 0.01), Status::Ok);
@@ -42,10 +41,10 @@ fn rounding_in_the_communication_point_is_accepted_and_the_step_ends_exactly_at_
     for i in 0..1000 {
         assert_eq!(added.step(point, step), Status::Ok);
         point += step;
-        assert_eq!(added.last_successful_time(), point);
+        assert_eq!(added.time(), point);
         let point = f64::from(i) * step;
         assert_eq!(multiplied.step(point, step), Status::Ok);
-        assert_eq!(multiplied.last_successful_time(), point + step);
+        assert_eq!(multiplied.time(), point + step);
     }
 }
 
@@ -63,10 +62,10 @@ fn points_rounded_by_the_master_are_the_same_instant_and_nothing_drifts_for_it()
         for i in 0..steps {
             let point = rounded(f64::from(i) * step);
             assert_eq!(round.step(point, step), Status::Ok, "{:?}", round.log());
-            assert_eq!(round.last_successful_time(), point + step);
-            assert!((round.last_successful_time() - f64::from(i + 1) * step).abs() < 1e-9);
+            assert_eq!(round.time(), point + step);
+            assert!((round.time() - f64::from(i + 1) * step).abs() < 1e-9);
         }
-        let end = round.last_successful_time();
+        let end = round.time();
         assert_eq!(exact.step(0.0, end), Status::Ok);
         for name in ["V", "alpha", "q", "h"] {
             let (a, b) = (round.get(name), exact.get(name));
@@ -83,31 +82,30 @@ fn a_point_a_millionth_of_the_step_off_is_accepted_early_or_late_and_a_thousandt
     for (off, step) in [(3e-12, 1e-3), (-3e-12, 1e-3), (1e-6, 1.0), (-1e-6, 1.0), (1e-9, 1e-5)] {
         let point = time + 0.99 * off;
         assert_eq!(slave.step(point, step), Status::Ok, "{off} {:?}", slave.log());
-        assert_eq!(slave.last_successful_time(), point + step);
+        assert_eq!(slave.time(), point + step);
         time = point + step;
-        assert_eq!(slave.step(time + 1e-3 * step + 2e-9, step), Status::Error);
-        assert_eq!(slave.step(time - 1e-3 * step - 2e-9, step), Status::Error);
-        slave.log();
+        for point in [time + 1e-3 * step + 2e-9, time - 1e-3 * step - 2e-9] {
+            slave.refuses(Status::Error, &["do not continue"], |slave| slave.step(point, step));
+        }
     }
-    assert_eq!(slave.step(time - 1e-10, 1e-10), Status::Error, "a whole step is no rounding");
+    // A whole step is no rounding.
+    slave.refuses(Status::Error, &["do not continue"], |slave| slave.step(time - 1e-10, 1e-10));
 }
 
 #[test]
 fn the_stop_time_is_an_end_but_for_rounding() {
     let api = Api::load();
     let slave = Slave::new(&api);
-    assert_eq!(slave.set_integer("configuration", 1), Status::Ok);
-    assert_eq!(slave.setup_with(None, 0.0, Some(0.3)), Status::Ok);
-    assert_eq!(slave.enter(), Status::Ok);
+    assert_eq!(slave.set_enumeration("configuration", 1), Status::Ok);
+    assert_eq!(slave.begin_with(None, 0.0, Some(0.3)), Status::Ok);
     assert_eq!(slave.exit(), Status::Ok);
     assert_eq!(slave.step(0.0, 0.1), Status::Ok);
-    assert_eq!(slave.step(0.1, 0.25), Status::Error);
-    assert!(slave.message().message.contains("stop time 0.3 s"));
+    slave.refuses(Status::Error, &["stop time 0.3 s"], |slave| slave.step(0.1, 0.25));
     assert_eq!(slave.step(0.1, 0.1), Status::Ok);
     let end = 0.2 + 0.1;
     assert!(end > 0.3, "this addition rounds up");
     assert_eq!(slave.step(0.2, 0.1), Status::Ok);
-    assert_eq!(slave.last_successful_time(), end);
+    assert_eq!(slave.time(), end);
     assert_eq!(slave.step(end, 0.1), Status::Error);
 }
 
@@ -119,13 +117,13 @@ fn steps_far_below_the_resolution_of_time_do_nothing_and_are_fine() {
     let before = slave.bits();
     assert_eq!(slave.step(1.0, 1e-300), Status::Ok);
     assert_eq!(slave.bits(), before);
-    assert_eq!(slave.last_successful_time(), 1.0);
+    assert_eq!(slave.time(), 1.0);
     assert_eq!(slave.step(1.0, f64::EPSILON), Status::Ok);
-    assert_eq!(slave.last_successful_time(), 1.0 + f64::EPSILON);
+    assert_eq!(slave.time(), 1.0 + f64::EPSILON);
 }
 
 #[test]
-fn leaving_the_envelope_discards_with_the_last_valid_instant() {
+fn leaving_the_envelope_ends_the_flight_at_the_last_valid_instant() {
     let api = Api::load();
     let slave = Slave::with_logging(&api, true);
     slave.start();
@@ -134,15 +132,13 @@ fn leaving_the_envelope_discards_with_the_last_valid_instant() {
     let record = slave.message();
     assert_eq!((record.status, record.category.as_str()), (Status::Discard, "logStatusDiscard"));
     assert!(record.message.contains("reached the edge of its valid range"), "{}", record.message);
-    let time = slave.last_successful_time();
+    let time = slave.time();
     assert!(time >= point && time < point + 0.0625, "{time}");
-    assert!(slave.wants_to_end());
     let last = slave.bits();
-    assert_eq!(slave.step(time, 0.01), Status::Error, "the run has ended");
+    slave.refuses(Status::Error, &["not allowed in state step"], |slave| slave.step(time, 0.01));
     assert_eq!(slave.terminate(), Status::Ok);
     assert_eq!(slave.bits(), last, "the last valid values can still be read");
-    assert!(slave.wants_to_end());
-    assert_eq!(slave.last_successful_time(), time);
+    assert_eq!(slave.time(), time);
 }
 
 #[test]
@@ -151,10 +147,11 @@ fn a_discarded_step_can_be_repeated_from_a_saved_state_up_to_the_last_valid_inst
     let slave = Slave::flying(&api);
     assert_eq!(slave.set("delta_e", 0.2), Status::Ok);
     let start = slave.save();
-    assert_eq!(slave.step(0.0, 20.0), Status::Discard);
-    let time = slave.last_successful_time();
+    let stepped = slave.stepped(0.0, 20.0);
+    assert!(stepped.ended);
+    let time = slave.time();
+    assert_eq!(stepped.time, time);
     assert_eq!(slave.load(start), Status::Ok);
-    assert!(!slave.wants_to_end());
     assert_eq!(slave.step(0.0, 0.999 * time), Status::Ok);
     slave.free(start);
 }
@@ -164,12 +161,12 @@ fn start_time_and_tolerance_are_honoured_and_senseless_ones_refused() {
     let api = Api::load();
     let run = |tolerance| {
         let slave = Slave::new(&api);
-        assert_eq!(slave.set_integer("configuration", 1), Status::Ok);
-        assert_eq!(slave.setup_with(tolerance, -5.0, None), Status::Ok);
-        assert_eq!(slave.enter(), Status::Ok);
+        assert_eq!(slave.set_enumeration("configuration", 1), Status::Ok);
+        assert_eq!(slave.begin_with(tolerance, -5.0, None), Status::Ok);
         assert_eq!(slave.exit(), Status::Ok);
         assert_eq!(slave.set("delta_e", 0.005), Status::Ok);
-        assert_eq!(slave.step(0.0, 1.0), Status::Error, "the start time is -5 s");
+        // The start time is -5 s.
+        slave.refuses(Status::Error, &["do not continue"], |slave| slave.step(0.0, 1.0));
         assert_eq!(slave.step(-5.0, 1.0), Status::Ok);
         slave.get("alpha")
     };
@@ -192,10 +189,6 @@ fn start_time_and_tolerance_are_honoured_and_senseless_ones_refused() {
         (None, 1.0, Some(0.5), "stopTime = 0.5"),
         (None, 1.0, Some(nan), "stopTime = NaN"),
     ] {
-        assert_eq!(slave.setup_with(tolerance, start, stop), Status::Error, "{reason}");
-        let message = slave.message().message;
-        assert!(message.contains(reason), "{message}");
-        assert_eq!(slave.enter(), Status::Error, "a refused experiment is none");
-        slave.log();
+        slave.refuses(Status::Error, &[reason], |slave| slave.begin_with(tolerance, start, stop));
     }
 }

@@ -1,52 +1,50 @@
 //! Model exchange: the master integrates.
 
-use crate::common::{Api, Slave, reference};
+use super::{Api, Slave};
+use crate::common::reference;
+use crate::master::Api as _;
 use ahv::vehicle::{NOMINAL, STATES, State};
-use fmi_model::v2::sys::{EventInfo, Status};
+use fmi_model::status::Status;
 
 /// A flexible, sloshing vehicle.
 const SLOSH_BEAM: i32 = 3;
+
+/// What is returned for a value that cannot be taken.
+const REFUSED: Status = Api::REFUSED;
 
 /// An instance in continuous-time mode.
 fn exchanging(api: &Api, configuration: i32) -> Slave<'_> {
     let slave = Slave::exchange(api);
     slave.start_as(configuration);
-    let mut event = EventInfo::default();
-    // SAFETY: a live instance, room for the answer.
-    unsafe {
-        assert_eq!((api.new_discrete_states)(slave.c, &mut event), Status::Ok);
-        assert_eq!(event, EventInfo::default(), "nothing happens at an event");
-        assert_eq!((api.enter_continuous_time_mode)(slave.c), Status::Ok);
-    }
+    assert_eq!(api.update(slave.c), (Status::Ok, false));
+    assert_eq!(api.enter_continuous_time_mode(slave.c), Status::Ok);
     slave
 }
 
 fn states(slave: &Slave) -> State {
     let mut x = [f64::NAN; STATES];
-    // SAFETY: a live instance, room for all states.
-    let status = unsafe { (slave.api.get_continuous_states)(slave.c, x.as_mut_ptr(), STATES) };
-    assert_eq!(status, Status::Ok);
+    assert_eq!(slave.api.get_states(slave.c, &mut x), Status::Ok);
     x
 }
 
 fn set_states(slave: &Slave, x: &[f64]) -> Status {
-    // SAFETY: a live instance, an array of the length given.
-    unsafe { (slave.api.set_continuous_states)(slave.c, x.as_ptr(), x.len()) }
+    slave.api.set_states(slave.c, x)
+}
+
+fn set_time(slave: &Slave, time: f64) -> Status {
+    slave.api.set_time(slave.c, time)
 }
 
 fn derivatives(slave: &Slave) -> (Status, State) {
     let mut rates = [f64::NAN; STATES];
-    // SAFETY: a live instance, room for all states.
-    let status = unsafe { (slave.api.get_derivatives)(slave.c, rates.as_mut_ptr(), STATES) };
-    (status, rates)
+    (slave.api.get_rates(slave.c, &mut rates), rates)
 }
 
-fn completed(slave: &Slave) -> (bool, bool) {
-    let (mut event, mut end) = (-1, -1);
-    // SAFETY: a live instance, room for the answers.
-    let status = unsafe { (slave.api.completed_integrator_step)(slave.c, 1, &mut event, &mut end) };
-    assert_eq!(status, Status::Ok);
-    (event != 0, end != 0)
+/// Whether the end of an integrator's step asks for an end of the simulation.
+fn completed(slave: &Slave) -> bool {
+    let completed = slave.api.completed(slave.c);
+    assert_eq!((completed.status, completed.event), (Status::Ok, false), "there are no events");
+    completed.end
 }
 
 /// One step of the classical Runge-Kutta method, by the master.
@@ -54,8 +52,7 @@ fn runge_kutta(slave: &Slave, t: f64, h: f64) {
     let x = states(slave);
     let rate = |offset: f64, along: &State| {
         let moved: State = std::array::from_fn(|i| x[i] + offset * along[i]);
-        // SAFETY: a live instance.
-        assert_eq!(unsafe { (slave.api.set_time)(slave.c, t + offset) }, Status::Ok);
+        assert_eq!(set_time(slave, t + offset), Status::Ok);
         assert_eq!(set_states(slave, &moved), Status::Ok);
         let (status, rates) = derivatives(slave);
         assert_eq!(status, Status::Ok);
@@ -67,10 +64,9 @@ fn runge_kutta(slave: &Slave, t: f64, h: f64) {
     let k4 = rate(h, &k3);
     let next: State =
         std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
-    // SAFETY: a live instance.
-    assert_eq!(unsafe { (slave.api.set_time)(slave.c, t + h) }, Status::Ok);
+    assert_eq!(set_time(slave, t + h), Status::Ok);
     assert_eq!(set_states(slave, &next), Status::Ok);
-    assert_eq!(completed(slave), (false, false));
+    assert!(!completed(slave));
 }
 
 /// Over the nominal values: fourth order at 0.1 ms, 0.01 rad of the fastest mode a step.
@@ -121,19 +117,14 @@ fn the_edge_of_the_fits_ends_the_simulation_after_a_completed_step_with_its_reas
     assert_eq!(set_states(&slave, &x), Status::Ok);
     assert_eq!(derivatives(&slave).0, Status::Ok, "an integrator may look beyond the edge");
     assert!(slave.log().is_empty());
-    assert_eq!(completed(&slave), (false, true));
+    assert!(completed(&slave));
     let record = slave.message();
     assert!(
         record.category == "logStatusDiscard" && record.message.contains("alpha"),
         "{record:?}"
     );
-    let mut event = EventInfo::default();
-    // SAFETY: a live instance, room for the answer.
-    unsafe {
-        assert_eq!((api.enter_event_mode)(slave.c), Status::Ok);
-        assert_eq!((api.new_discrete_states)(slave.c, &mut event), Status::Ok);
-    }
-    assert_eq!(event.terminate_simulation, 1);
+    assert_eq!(api.enter_event_mode(slave.c), Status::Ok);
+    assert_eq!(api.update(slave.c), (Status::Ok, true));
 }
 
 #[test]
@@ -155,13 +146,9 @@ fn trial_states_without_numbers_are_discarded_and_senseless_ones_refused() {
     assert_eq!(set_states(&slave, &good), Status::Ok);
     let mut wild = good;
     wild[4] = f64::NAN;
-    assert_eq!(set_states(&slave, &wild), Status::Error);
-    assert!(slave.message().message.contains("q = NaN"));
-    assert_eq!(set_states(&slave, &good[1..]), Status::Error);
-    assert!(slave.message().message.contains("nx = 15"));
-    // SAFETY: a live instance.
-    assert_eq!(unsafe { (api.set_time)(slave.c, f64::INFINITY) }, Status::Error);
-    assert!(slave.message().message.contains("time = inf"));
+    slave.refuses(REFUSED, &["q = NaN"], |slave| set_states(slave, &wild));
+    slave.refuses(Status::Error, &[" = 15 is refused"], |slave| set_states(slave, &good[1..]));
+    slave.refuses(Status::Error, &["time = inf"], |slave| set_time(slave, f64::INFINITY));
     assert_eq!(states(&slave), good);
 }
 
@@ -187,9 +174,7 @@ fn set_real_sets_states_as_set_continuous_states_does() {
     // One state, beside an input: the others stay. In event mode as well.
     for event_mode in [false, true] {
         if event_mode {
-            // SAFETY: a live instance.
-            let status = unsafe { (api.enter_event_mode)(by_name.c) };
-            assert_eq!(status, Status::Ok);
+            assert_eq!(api.enter_event_mode(by_name.c), Status::Ok);
         }
         let (alpha, elevator) = (0.02 + f64::from(event_mode) * 0.01, reference("delta_e"));
         assert_eq!(by_name.set_reals(&[references[3], elevator], &[alpha, 0.01]), Status::Ok);
@@ -210,23 +195,23 @@ fn a_refused_state_changes_nothing_and_co_simulation_keeps_its_own() {
     let slave = exchanging(&api, SLOSH_BEAM);
     let (before, alpha) = (slave.bits(), reference("alpha"));
     let refused = [
-        ("q", f64::NAN, "q = NaN is refused"),
-        ("eta1", f64::INFINITY, "eta1 = inf is refused"),
-        ("lift", 1.0, "lift = 1 is refused"),
-        ("der(q)", 1.0, "der(q) = 1 is refused"),
-        ("mach0", 7.0, "mach0 = 7 is refused"),
-        ("alpha_trim", 0.0, "alpha_trim = 0 is refused"),
-        ("w_gust", 300.0, "w_gust = 300 is refused"),
+        ("q", f64::NAN, REFUSED, "q = NaN is refused"),
+        ("eta1", f64::INFINITY, REFUSED, "eta1 = inf is refused"),
+        ("lift", 1.0, Status::Error, "lift = 1 is refused"),
+        ("der(q)", 1.0, Status::Error, "der(q) = 1 is refused"),
+        ("mach0", 7.0, Status::Error, "mach0 = 7 is refused"),
+        ("alpha_trim", 0.0, Status::Error, "alpha_trim = 0 is refused"),
+        ("w_gust", 300.0, REFUSED, "w_gust = 300 is refused"),
     ];
-    for (name, value, reason) in refused {
-        assert_eq!(slave.set_reals(&[alpha, reference(name)], &[0.05, value]), Status::Error);
-        assert!(slave.message().message.contains(reason), "{name}");
+    for (name, value, status, reason) in refused {
+        let references = [alpha, reference(name)];
+        slave.refuses(status, &[reason], |slave| slave.set_reals(&references, &[0.05, value]));
         assert_eq!(slave.bits(), before, "{name}");
     }
     let (early, flying) = (Slave::exchange(&api), Slave::flying(&api));
     for slave in [early, flying] {
-        assert_eq!(slave.set("alpha", 0.05), Status::Error);
-        assert!(slave.message().message.contains("alpha = 0.05 is refused"));
+        let words = ["alpha = 0.05 is refused"];
+        slave.refuses(Status::Error, &words, |slave| slave.set("alpha", 0.05));
     }
 }
 
@@ -242,8 +227,7 @@ fn an_fmu_state_brings_a_trial_back_and_is_refused_by_the_other_interface() {
     assert_eq!(slave.bits(), before);
     let other = Slave::flying(&api);
     let unchanged = other.bits();
-    assert_eq!(other.load(saved), Status::Error);
-    assert!(other.message().message.contains("continuous-time mode"));
+    other.refuses(Status::Error, &["one of Model Exchange"], |other| other.load(saved));
     assert_eq!(other.bits(), unchanged);
     slave.free(saved);
     let flying = other.save();
@@ -256,11 +240,9 @@ fn directional_derivatives_serve_an_implicit_integrator() {
     let api = Api::load();
     let slave = exchanging(&api, SLOSH_BEAM);
     let (rate, state) = (reference("der(eta1_dot)"), reference("eta1"));
-    let mut change = 0.0;
-    // SAFETY: arrays of one element.
-    let status =
-        unsafe { (api.directional_derivative)(slave.c, &rate, 1, &state, 1, &1.0, &mut change) };
-    assert_eq!(status, Status::Ok);
+    let mut changes = [f64::NAN];
+    assert_eq!(api.directional(slave.c, &[rate], &[state], &[1.0], &mut changes), Status::Ok);
+    let [change] = changes;
     let omega = slave.get("omega1");
     // The air takes off a tenth.
     assert!((0.85..1.0).contains(&(change / -(omega * omega))), "a spring: {change}");
