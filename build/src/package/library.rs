@@ -13,9 +13,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// With the C interface only, link-time optimisation makes the library 4 % smaller.
-const LTO: [&str; 2] = ["--config", "profile.release.lto='fat'"];
-
 /// Linker for Windows, from MinGW-w64.
 const MINGW: &str = "x86_64-w64-mingw32-gcc";
 
@@ -95,14 +92,14 @@ impl Builder<'_> {
     }
 }
 
-/// The test of the panic guard on Linux on ARM, run by `emulator`; shares the standard library with the library.
+/// The test of the panic guard on Linux on ARM, run by `emulator`.
 pub fn guard_on_arm(emulator: &str) -> Result<Command> {
     let zig = zig()?;
     let builder = builder(LINUX_ARM, Some(&zig))?;
     let mut command = with_zig(&zig, &builder.toolchain, LINUX_ARM, "test");
     command
         .args(["--release", "--package", "fmi-model", "--test", "guard"])
-        .args(LTO)
+        .args(profile(LINUX_ARM))
         .arg("--target-dir")
         .arg(target().join("fmu").join(builder.toolchain.directory()))
         .env("CARGO_ENCODED_RUSTFLAGS", rustflags(builder.std_remap().into_iter().collect()))
@@ -163,12 +160,9 @@ pub fn compile_crate(
     directory: &str,
     flags: Vec<OsString>,
 ) -> Result<PathBuf> {
-    // Stripping for macOS needs a tool of LLVM and invalidates the signature.
-    let strip = if platform.os == "macos" { "none" } else { "symbols" };
     command
         .args(["--release", "--package", package, "--lib", "--crate-type", "cdylib"])
-        .args(LTO)
-        .args(["--config", &format!("profile.release.strip='{strip}'")])
+        .args(profile(platform))
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")
         .arg(target().join("fmu").join(directory))
@@ -194,6 +188,16 @@ pub fn compile_crate(
                     .is_some_and(|stem| stem.to_string_lossy().trim_start_matches("lib") == name)
         })
         .ok_or_else(|| anyhow!("cargo reported no path of the library {name}.{}", platform.ending))
+}
+
+/// Options of the release profile. With the C interface only, link-time optimisation makes the library 4 % smaller.
+fn profile(platform: Platform) -> [&'static str; 4] {
+    // Stripping for macOS needs a tool of LLVM and invalidates the signature.
+    let strip = match platform.os {
+        "macos" => "profile.release.strip='none'",
+        _ => "profile.release.strip='symbols'",
+    };
+    ["--config", "profile.release.lto='fat'", "--config", strip]
 }
 
 /// Compiler flags: the user's, ours, and those that remove local directories from the source paths in panic
