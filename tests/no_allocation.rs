@@ -48,11 +48,12 @@ fn verif_a_step_with_all_outputs_allocates_nothing() {
     }
 }
 
+/// A step of an instance, from a point and so long, s.
+type Step = fn(&mut Instance<Setup>, f64, f64) -> Outcome;
+
 #[test]
 fn a_step_of_an_instance_allocates_nothing_in_either_version_once_it_has_made_one() {
-    let steps: [fn(&mut Instance<Setup>, f64, f64) -> Outcome; 2] =
-        [Instance::do_step, Instance::whole_step];
-    for step in steps {
+    for step in [Instance::do_step as Step, Instance::whole_step] {
         let mut instance = Instance::<Setup>::new(Interface::CoSimulation, false).unwrap();
         instance.setup_experiment(None, 0.0, None).unwrap();
         instance.enter_initialization_mode().unwrap();
