@@ -57,10 +57,10 @@ pub struct Describe {
     /// Compare with the files instead of writing them; fail if they differ
     #[arg(long)]
     pub check: bool,
-    /// File to write or compare, of one version of the standard
-    #[arg(long, value_name = "FILE", requires = "fmi")]
+    /// File to write or compare
+    #[arg(long, value_name = "FILE")]
     pub file: Option<PathBuf>,
-    /// Version of the standard [default: both]
+    /// Version of the standard [default: both; 2 with --file]
     #[arg(long, value_name = "VERSION")]
     pub fmi: Option<Fmi>,
 }

@@ -15,6 +15,7 @@ pub const MODEL_IDENTIFIER: &str = Setup::ABOUT.identifier;
 pub fn run(options: &Describe) -> Result<()> {
     let versions = match options.fmi {
         Some(version) => vec![version.into()],
+        None if options.file.is_some() => vec![Standard::Fmi2],
         None => Standard::ALL.to_vec(),
     };
     versions.into_iter().try_for_each(|standard| {

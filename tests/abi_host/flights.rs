@@ -4,6 +4,7 @@ use crate::common::configurations;
 use crate::common::fmi2::Api;
 use crate::host::Host;
 use crate::watch::Watch;
+use ahv::flight::Setup;
 use ahv::vehicle::NOMINAL;
 use fmi_model::instance::Interface;
 use fmi_model::v2::sys::Status;
@@ -13,7 +14,8 @@ use fmi_model::{Kind, table::find};
 pub type Vehicle = (i32, i32, i32);
 
 pub fn vehicles() -> impl Iterator<Item = Vehicle> {
-    let Kind::Enumeration(_, sets) = find::<ahv::flight::Setup>("aero").unwrap().kind else {
+    let built_in = Setup::new().expect("the embedded data are valid");
+    let Kind::Enumeration(_, sets) = find::<Setup>("aero").unwrap().kind_in(&built_in) else {
         unreachable!()
     };
     configurations().into_iter().flat_map(move |configuration| {
