@@ -19,8 +19,8 @@ struct Crate {
     manifest_path: PathBuf,
 }
 
-/// Licence files by name in the FMU: ours, those of every linked crate, and those of the run-time libraries
-/// that compilers and linkers add.
+/// Licence files by name in the FMU: ours, those of every crate linked into the library or the WebAssembly component,
+/// those of the interface of the latter, and those of the run-time libraries that compilers and linkers add.
 pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
     let mut files = BTreeMap::new();
     for (name, content) in in_directory(root())? {
@@ -35,6 +35,9 @@ pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
             format!("documentation/licenses/runtime/{name}"),
             read(&entry.path(), MAX_TEXT_BYTES)?,
         );
+    }
+    for (name, content) in in_directory(&root().join("crates/wasm/wit"))? {
+        files.insert(format!("documentation/licenses/fmi-ls-wasm/{name}"), content);
     }
     for linked in linked_crates()? {
         let Some(directory) = linked.manifest_path.parent() else { continue };
@@ -69,6 +72,7 @@ fn linked_crates() -> Result<Vec<Crate>> {
     let tree = cargo_output(&[
         "tree",
         "--package=ahv-fmu",
+        "--package=ahv-wasm",
         "--edges=normal,no-proc-macro",
         "--prefix=none",
         "--format={p}",
@@ -79,6 +83,7 @@ fn linked_crates() -> Result<Vec<Crate>> {
         .filter_map(|line| line.split_once(" v"))
         .map(|(name, rest)| (name.to_string(), rest.split(' ').next().unwrap_or(rest).to_string()))
         .filter(|(name, _)| name != "ahv-fmu")
+        .filter(|(name, _)| name != "ahv-wasm")
         .collect();
     let metadata = cargo_output(&["metadata", "--format-version=1"])?;
     let Metadata { mut packages } =

@@ -17,7 +17,9 @@ pub struct Set {
 /// All sets of the FMU, from its table of variables.
 fn all(setup: &Setup) -> Result<Vec<Set>> {
     let Some(variable) = find::<Setup>("aero") else { bail!("the FMU has no parameter `aero`") };
-    let Kind::Enumeration(_, items) = variable.kind else { bail!("`aero` is no enumeration") };
+    let Kind::Enumeration(_, items) = variable.kind_in(setup) else {
+        bail!("`aero` is no enumeration")
+    };
     items
         .iter()
         .map(|&(name, value, description)| {
