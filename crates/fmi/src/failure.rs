@@ -59,7 +59,7 @@ pub enum Failure {
         count: usize,
     },
     /// The variable has another type.
-    #[error("{variable} (value reference {reference}) is no {asked}, it is a {has}")]
+    #[error("{variable} (value reference {reference}) is no {asked}, its type is {has}")]
     WrongType {
         /// Name of the variable.
         variable: &'static str,

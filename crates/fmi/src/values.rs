@@ -46,7 +46,7 @@ fn name_of(kind: &Kind, standard: Standard) -> &'static str {
         (Standard::Fmi2, Kind::Integer | Kind::Enumeration(..)) => "Integer or Enumeration",
         (Standard::Fmi3, Kind::Real(_)) => "Float64",
         (Standard::Fmi3, Kind::Integer) => "Int32",
-        (Standard::Fmi3, Kind::Enumeration(..)) => "Int64 (Enumeration)",
+        (Standard::Fmi3, Kind::Enumeration(..)) => "Enumeration (Int64)",
         (_, Kind::Boolean) => "Boolean",
     }
 }

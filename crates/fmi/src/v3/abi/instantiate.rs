@@ -5,13 +5,13 @@ use crate::abi::{self, input, string};
 use crate::failure::Failure;
 use crate::instance::{Instance as Of, Interface};
 use crate::instantiate::Request;
+use crate::location;
 use crate::model::{Model, Simulation};
 use crate::v3::sys::{
     Boolean, ClockUpdateCallback, FmiString, Instance, InstanceEnvironment,
     IntermediateUpdateCallback, LogMessageCallback, PreemptionCallback, ValueReference,
 };
 use crate::variable::Role;
-use std::path::PathBuf;
 
 /// What all interfaces need.
 struct Arguments {
@@ -32,9 +32,10 @@ unsafe fn make<M: Model>(arguments: &Arguments, interface: Interface) -> Result<
     };
     let name = text("instanceName", arguments.name)?;
     let token = text("instantiationToken", arguments.token)?;
+    // A path; some masters pass a URI, as in FMI 2.0.
     let resources = match arguments.resources.is_null() {
         true => None,
-        false => Some(PathBuf::from(text("resourcePath", arguments.resources)?)),
+        false => location::folder(&text("resourcePath", arguments.resources)?),
     };
     let request = Request {
         name: &name,
