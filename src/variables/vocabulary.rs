@@ -2,16 +2,23 @@
 
 use crate::flight::Setup;
 use crate::vehicle::{self, CONTROLS, NOMINAL, STATES, eta};
-use fmi_model::{Dependencies, Items, Kind, Unit, Variable};
+use fmi_model::{Alias, Dependencies, Items, Kind, Unit, Variable};
 
+/// Turns per radian.
+const HERTZ: f64 = 0.5 / core::f64::consts::PI;
 /// Degrees per radian.
 const DEGREES: f64 = 180.0 / core::f64::consts::PI;
 
 pub(super) const ONE: &Unit = Unit::ONE;
-pub(super) const METRE: &Unit = &Unit::new("m", Some("Length"), [0, 1, 0, 0]);
+/// Feet per metre: the paper's unit of length.
+const FEET: f64 = 1.0 / 0.3048;
+
+pub(super) const METRE: &Unit =
+    &Unit::new("m", Some("Length"), [0, 1, 0, 0]).with_others(&[("ft", FEET)]);
 /// Slope per deflection: an angle over a length.
 pub(super) const SLOPE: &Unit = &Unit::new("rad/m", None, [0, -1, 0, 1]);
-pub(super) const SPEED: &Unit = &Unit::new("m/s", Some("Velocity"), [0, 1, -1, 0]);
+pub(super) const SPEED: &Unit =
+    &Unit::new("m/s", Some("Velocity"), [0, 1, -1, 0]).with_others(&[("ft/s", FEET)]);
 pub(super) const ACCELERATION: &Unit = &Unit::new("m/s2", Some("Acceleration"), [0, 1, -2, 0]);
 pub(super) const ANGLE: &Unit =
     &Unit::new("rad", Some("Angle"), [0, 0, 0, 1]).displayed_as("deg", DEGREES);
@@ -20,7 +27,8 @@ pub(super) const ANGULAR_RATE: &Unit =
 pub(super) const ANGULAR_ACCELERATION: &Unit =
     &Unit::new("rad/s2", Some("AngularAcceleration"), [0, 0, -2, 1]);
 /// Frequencies share the dimension of an angular rate but are not shown in degrees.
-pub(super) const FREQUENCY: &Unit = &Unit::new("rad/s", Some("AngularFrequency"), [0, 0, -1, 1]);
+pub(super) const FREQUENCY: &Unit =
+    &Unit::new("rad/s", Some("AngularFrequency"), [0, 0, -1, 1]).with_others(&[("Hz", HERTZ)]);
 pub(super) const FORCE_PER_WIDTH: &Unit = &Unit::new("N/m", Some("ForcePerWidth"), [1, 0, -2, 0]);
 pub(super) const MOMENT_PER_WIDTH: &Unit = &Unit::new("N", Some("MomentPerWidth"), [1, 1, -2, 0]);
 pub(super) const INERTIA_PER_WIDTH: &Unit = &Unit::new("kg.m", None, [1, 1, 0, 0]);
@@ -28,6 +36,16 @@ pub(super) const MASS_PER_WIDTH: &Unit = &Unit::new("kg/m", Some("MassPerWidth")
 pub(super) const MASS_FLOW_PER_WIDTH: &Unit =
     &Unit::new("kg/(m.s)", Some("MassFlowPerWidth"), [1, -1, -1, 0]);
 pub(super) const PRESSURE: &Unit = &Unit::new("Pa", Some("Pressure"), [1, -1, -2, 0]);
+
+/// Another name, shown in the variable's unit.
+pub(super) const fn alias(name: &'static str) -> Alias {
+    Alias { name, display: None }
+}
+
+/// Another name, shown in another unit.
+pub(super) const fn alias_in(display: &'static str, name: &'static str) -> Alias {
+    Alias { name, display: Some(display) }
+}
 
 pub(super) const fn dependent(mask: u64) -> Dependencies {
     Dependencies::dependent(mask)

@@ -42,24 +42,29 @@ fn units<M: Model>(others: &[Unit]) -> Vec<Unit> {
     for variable in M::VARIABLES {
         let Kind::Real(unit) = variable.kind else { continue };
         match units.iter_mut().find(|known| known.name == unit.name) {
-            Some(known) => known.display = known.display.or(unit.display),
+            Some(known) => {
+                known.display = known.display.or(unit.display);
+                if known.others.is_empty() {
+                    known.others = unit.others;
+                }
+            }
             None => units.push(*unit),
         }
     }
     units
 }
 
-/// Both standards write units alike.
-fn unit_definitions(xml: &mut Xml, units: &[Unit]) -> io::Result<()> {
+/// Both standards write units alike; FMI 3.0 has those of aliases too.
+fn unit_definitions(xml: &mut Xml, units: &[Unit], standard: Standard) -> io::Result<()> {
     if units.is_empty() {
         return Ok(());
     }
     xml.parent("UnitDefinitions", &[], |xml| {
-        units.iter().try_for_each(|unit| unit_definition(xml, unit))
+        units.iter().try_for_each(|unit| unit_definition(xml, unit, standard))
     })
 }
 
-fn unit_definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
+fn unit_definition(xml: &mut Xml, unit: &Unit, standard: Standard) -> io::Result<()> {
     xml.parent("Unit", &[("name", unit.name.to_string())], |xml| {
         let exponents: Vec<_> = ["kg", "m", "s", "rad"]
             .into_iter()
@@ -68,11 +73,11 @@ fn unit_definition(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
             .map(|(base, exponent)| (base, exponent.to_string()))
             .collect();
         xml.leaf("BaseUnit", &exponents)?;
-        if let Some((name, factor)) = unit.display {
+        let others = if standard == Standard::Fmi3 { unit.others } else { &[] };
+        unit.display.iter().chain(others).try_for_each(|(name, factor)| {
             let attributes = [("name", name.to_string()), ("factor", factor.to_string())];
-            xml.leaf("DisplayUnit", &attributes)?;
-        }
-        Ok(())
+            xml.leaf("DisplayUnit", &attributes)
+        })
     })
 }
 

@@ -12,6 +12,8 @@ pub struct Unit {
     pub base: [i32; 4],
     /// Name of the display unit and its size in the unit's inverse: shown = value * factor.
     pub display: Option<(&'static str, f64)>,
+    /// Other units that aliases are shown in, likewise.
+    pub others: &'static [(&'static str, f64)],
 }
 
 impl Unit {
@@ -22,12 +24,17 @@ impl Unit {
 
     /// A unit that is shown as it is.
     pub const fn new(name: &'static str, quantity: Option<&'static str>, base: [i32; 4]) -> Self {
-        Self { name, quantity, base, display: None }
+        Self { name, quantity, base, display: None, others: &[] }
     }
 
     /// The unit, shown in another one: shown = value * factor.
     pub const fn displayed_as(self, name: &'static str, factor: f64) -> Self {
         Self { display: Some((name, factor)), ..self }
+    }
+
+    /// The unit, which aliases show in these: shown = value * factor.
+    pub const fn with_others(self, others: &'static [(&'static str, f64)]) -> Self {
+        Self { others, ..self }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::exchange::EVENT_INDICATORS;
 use crate::identity::guid_of;
 use crate::kinds::Kind;
 use crate::model::{Model, Simulation};
+use crate::standard::Standard;
 use crate::table::known_rows;
 use crate::variable::{Role, Variable};
 use std::io;
@@ -31,7 +32,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
     ];
     xml.parent("fmiModelDescription", &root, |xml| {
         interfaces::<M>(xml)?;
-        unit_definitions(xml, &units::<M>(&[]))?;
+        unit_definitions(xml, &units::<M>(&[]), Standard::Fmi2)?;
         type_definitions(xml, &types(model))?;
         categories_and_experiment::<M>(xml)?;
         xml.parent("ModelVariables", &[], |xml| {

@@ -8,6 +8,7 @@ use crate::derivatives::OUTPUT_ORDER;
 use crate::identity::guid_of;
 use crate::kinds::{Kind, Unit};
 use crate::model::{Model, Simulation};
+use crate::standard::Standard;
 use crate::table::known_rows;
 use crate::values::TIME;
 use crate::variable::{Role, Variable};
@@ -30,7 +31,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
     ];
     xml.parent("fmiModelDescription", &root, |xml| {
         interfaces::<M>(xml)?;
-        unit_definitions(xml, &units::<M>(&[*Unit::SECOND]))?;
+        unit_definitions(xml, &units::<M>(&[*Unit::SECOND]), Standard::Fmi3)?;
         type_definitions(xml, &types(model))?;
         categories_and_experiment::<M>(xml)?;
         xml.parent("ModelVariables", &[], |xml| {
@@ -158,7 +159,16 @@ fn write_variable<M: Model>(
             "Enumeration"
         }
     };
-    xml.leaf(element, &attributes)
+    if variable.aliases.is_empty() {
+        return xml.leaf(element, &attributes);
+    }
+    xml.parent(element, &attributes, |xml| {
+        variable.aliases.iter().try_for_each(|alias| {
+            let mut attributes = vec![("name", alias.name.to_string())];
+            attributes.extend(alias.display.map(|name| ("displayUnit", name.to_string())));
+            xml.leaf("Alias", &attributes)
+        })
+    })
 }
 
 fn range<M: Model>(variable: &Variable<M>) -> impl Iterator<Item = (&'static str, String)> {
