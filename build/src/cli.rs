@@ -25,6 +25,7 @@ pub enum Command {
     #[command(after_help = TRIM_HELP)]
     Trim(Analyse),
     Poles(Poles),
+    Wheel(Wheel),
     Test(Test),
     /// Compare every table, claim and computed figure of the paper with ours; write a report
     Reproduce(Research),
@@ -216,6 +217,19 @@ pub struct Poles {
     pub all: bool,
     #[command(flatten)]
     pub analyse: Analyse,
+}
+
+/// Build the Python package with both FMUs inside: target/ahv-VERSION-py3-none-any.whl
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv wheel                                 with target/ahv.fmu, which is built first if missing
+  cargo ahv wheel --fmu target/ahv-host.fmu       for this machine only
+  pip install target/ahv-*.whl")]
+pub struct Wheel {
+    /// FMU of FMI 2.0, with that of FMI 3.0 beside it [default: target/ahv.fmu]
+    #[arg(long, value_name = "FILE.fmu")]
+    pub fmu: Option<PathBuf>,
 }
 
 /// Check format, lints, Rust tests, description, package, and the FMU in FMPy
