@@ -240,8 +240,8 @@ Examples:
   cargo ahv test --thorough                  before you submit a change: half an hour
   cargo ahv test --thorough --all-targets    also fail if a platform cannot be built or tested")]
 pub struct Test {
-    /// Also test examples, other masters, 100,000 random call sequences, sanitizer, valgrind,
-    /// benchmarks, Windows and ARM
+    /// Also test examples, the Python package, other masters, 100,000 random call sequences, sanitizer,
+    /// valgrind, benchmarks, Windows and ARM
     #[arg(long)]
     pub thorough: bool,
     /// Stop at the first step that fails
