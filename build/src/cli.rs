@@ -223,7 +223,7 @@ pub struct Poles {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  cargo ahv wheel                                 with target/ahv.fmu, which is built first if missing
+  cargo ahv wheel                                 with target/ahv.fmu, built first if missing or old
   cargo ahv wheel --fmu target/ahv-host.fmu       for this machine only
   pip install target/ahv-*.whl")]
 pub struct Wheel {

@@ -21,7 +21,7 @@ pub fn run(options: &Wheel) -> Result<()> {
         Some(fmu) => fmu.clone(),
         None => package::default_output(Targets::Possible),
     };
-    if options.fmu.is_none() && !fmu.exists() {
+    if options.fmu.is_none() && !package::is_current(&fmu) {
         package::build(&fmu, Targets::Possible)?;
     }
     let wheel = build(&fmu)?;
