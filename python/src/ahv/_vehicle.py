@@ -18,7 +18,8 @@ from ahv._text import plain
 DESCRIPTION = "modelDescription.xml"
 VEHICLE, COEFFICIENTS = "resources/vehicle.toml", "resources/aero.toml"
 # What the package says of the built-in vehicle alone: its page, and its reference flight.
-BUILT_IN = ("documentation/index.html", "documentation/cross-check/", "extra/")
+REFERENCE = "extra/org.fmi-standard.fmi-ls-ref/"
+BUILT_IN = ("documentation/index.html", "documentation/cross-check/", REFERENCE)
 # Files that an instance needs.
 NEEDED = (DESCRIPTION, "binaries/", "resources/")
 NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
