@@ -25,6 +25,7 @@ pub enum Command {
     #[command(after_help = TRIM_HELP)]
     Trim(Analyse),
     Poles(Poles),
+    Wheel(Wheel),
     Test(Test),
     /// Compare every table, claim and computed figure of the paper with ours; write a report
     Reproduce(Research),
@@ -218,6 +219,19 @@ pub struct Poles {
     pub analyse: Analyse,
 }
 
+/// Build the Python package with both FMUs inside: target/ahv-VERSION-py3-none-any.whl
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  cargo ahv wheel                                 with target/ahv.fmu, built first if missing or old
+  cargo ahv wheel --fmu target/ahv-host.fmu       for this machine only
+  pip install target/ahv-*.whl")]
+pub struct Wheel {
+    /// FMU of FMI 2.0, with that of FMI 3.0 beside it [default: target/ahv.fmu]
+    #[arg(long, value_name = "FILE.fmu")]
+    pub fmu: Option<PathBuf>,
+}
+
 /// Check format, lints, Rust tests, description, package, and the FMU in FMPy
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -226,8 +240,8 @@ Examples:
   cargo ahv test --thorough                  before you submit a change: half an hour
   cargo ahv test --thorough --all-targets    also fail if a platform cannot be built or tested")]
 pub struct Test {
-    /// Also test examples, other masters, 100,000 random call sequences, sanitizer, valgrind,
-    /// benchmarks, Windows and ARM
+    /// Also test examples, the Python package, other masters, 100,000 random call sequences, sanitizer,
+    /// valgrind, benchmarks, Windows and ARM
     #[arg(long)]
     pub thorough: bool,
     /// Stop at the first step that fails

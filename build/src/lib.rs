@@ -36,4 +36,5 @@ pub mod simulation;
 pub mod table;
 pub mod test;
 pub mod trim;
+pub mod wheel;
 pub mod workspace;

@@ -3,7 +3,9 @@
 #![warn(clippy::disallowed_macros, clippy::disallowed_methods)]
 
 use ahv_tool::cli::{Cli, Command};
-use ahv_tool::{console, describe, fly, modes, package, poles, research, test, trim, workspace};
+use ahv_tool::{
+    console, describe, fly, modes, package, poles, research, test, trim, wheel, workspace,
+};
 use anyhow::Result;
 use clap::Parser;
 use std::process::ExitCode;
@@ -21,6 +23,7 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Modes(options) => modes::run(options),
         Command::Trim(options) => trim::run(options),
         Command::Poles(options) => poles::run(options),
+        Command::Wheel(options) => wheel::run(options),
         Command::Test(options) => test::run(options),
         Command::Reproduce(options) => return research::run("reproduce", options),
         Command::Identify(options) => return research::run("identify", options),

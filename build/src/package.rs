@@ -73,7 +73,7 @@ fn with_data(files: &OwnFiles, output: &Path, targets: Targets) -> Result<()> {
 }
 
 /// Whether a file is the package of the built-in vehicle, as the sources describe it.
-fn is_current(file: &Path) -> bool {
+pub fn is_current(file: &Path) -> bool {
     let found = libraries::entry(file, "modelDescription.xml");
     matches!((found, describe::xml(Standard::Fmi2)), (Ok(found), Ok(xml)) if found == xml.as_bytes())
 }

@@ -5,7 +5,7 @@ use crate::emulation::{QEMU, WINE, emulated};
 use crate::package::Targets;
 use crate::python::{environment, python};
 use crate::workspace::{cargo, check, root, target, works, write};
-use crate::{abi_stress, console, describe, masters, package, research};
+use crate::{abi_stress, console, describe, masters, package, research, wheel};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::process::Command;
@@ -25,7 +25,7 @@ use Level::{Always, Thorough};
 /// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 19] = [
+const STEPS: [Step; 20] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -65,6 +65,7 @@ const STEPS: [Step; 19] = [
     ("FMI headers", Always, |_| fmi_headers()),
     ("FMU tests", Always, |_| pytest(&["tests/fmu", "--ignore=tests/fmu/examples"])),
     ("examples", Thorough, |_| pytest(&["tests/fmu/examples"])),
+    ("Python package", Thorough, |_| wheel::test()),
     ("other masters", Thorough, |_| masters::fly()),
     ("C ABI fuzz", Thorough, |_| abi_stress::fuzz()),
     ("sanitizer", Thorough, |_| abi_stress::sanitizer()),
@@ -107,7 +108,7 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nNot tested: examples, other masters, sanitizer, valgrind, Windows, ARM, WebAssembly; see --thorough"
+            "\nNot tested: examples, Python package, other masters, sanitizer, valgrind, Windows, ARM, WebAssembly; see --thorough"
         );
     }
     Ok(())

@@ -11,9 +11,10 @@ import control as ct
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent))
+# The package of this repository, unless it is installed.
+sys.path.append(str(HERE.parents[1] / "python/src"))
+from ahv import LinearModel, linear_model
 from law import HIGH, LOW, PERIOD_S, Law
-from linear_model import LinearModel, linear_model
 
 MEASURED = ("V", "gamma", "q")
 RIGID, EVEN, SLOSH = 1, 2, 3

@@ -20,6 +20,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 LOOP = HERE.parent / "closed_loop"
 sys.path[:0] = [str(HERE), str(LOOP)]
+# The package of this repository, unless it is installed.
+sys.path.append(str(HERE.parents[1] / "python/src"))
 try:
     import numpy as np
     import pyarrow as pa
@@ -27,6 +29,7 @@ try:
     from fmpy import extract
     from scipy.stats import qmc
 
+    import ahv
     import design
     import pictures
     from batch import HISTORIES, MARGINS, NUMBERS, SAMPLE_EVERY, Task, fly_all
@@ -40,8 +43,8 @@ except ModuleNotFoundError as missing:
 # Files that every worker imports.
 MODULES = [
     HERE / "batch.py",
-    HERE.parent / "linear_model.py",
     *(LOOP / f"{name}.py" for name in ("design", "flight", "law")),
+    *sorted(Path(ahv.__file__).parent.glob("*.py")),
 ]
 # Varied parameters of the FMU with their limits; uniform, slosh_damping in its logarithm.
 VARIED = {
@@ -117,7 +120,8 @@ def fly(
     modules = parts.folder.parent / "modules.zip"
     with zipfile.ZipFile(modules, "w") as archive:
         for module in MODULES:
-            archive.write(module, module.name)
+            is_packaged = module.parent == Path(ahv.__file__).parent
+            archive.write(module, f"ahv/{module.name}" if is_packaged else module.name)
     client.upload_file(str(modules))
     shared = client.scatter(fmu, broadcast=True, hash=True)
     futures = {

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
-import runpy
-from pathlib import Path
 
 import numpy as np
 import pytest
 
+from ahv import linear_model
 from harness import (
+    ALL_DERIVATIVES,
     ALL_STATES,
     CONFIGURATIONS,
+    CONTROLS,
     DERIVATIVES,
     ERROR,
     EVERYTHING,
@@ -23,7 +24,6 @@ from harness import (
     ahv,
 )
 
-ROOT = Path(__file__).parents[2]
 # Difference of the two eigenvalue solvers relative to the largest pole.
 ROUNDING = 1e-10
 # Error of a central difference with an input change of 1e-4: 1e-8 truncation, 1e-12 rounding.
@@ -123,8 +123,15 @@ def test_what_has_no_derivative_is_refused_by_name(
         assert said in flight.log[-1].text
 
 
-def test_example_gives_the_four_matrices(package: Package) -> None:
-    model = runpy.run_path(str(ROOT / "examples/linear_model.py"))["linear_model"]
-    shown = model(str(package.folder), configuration=SLOSH_BEAM)
-    assert shown.states == list(ALL_STATES) and shown.A.shape == (len(ALL_STATES),) * 2
-    assert np.array_equal(shown.C.sum(axis=1), [1.0, 1.0]) and not shown.D.any()
+def test_the_python_package_gives_the_four_matrices(package: Package) -> None:
+    outputs = ("V", "gamma", "n_z")
+    found = linear_model(package.folder, outputs, configuration="SloshBeam")
+    assert found.states == list(ALL_STATES) and found.inputs == list(CONTROLS)
+    with package.flight(configuration=SLOSH_BEAM) as flight:
+        assert np.array_equal(found.A, jacobian(flight, ALL_DERIVATIVES, ALL_STATES))
+        assert np.array_equal(found.B, jacobian(flight, ALL_DERIVATIVES, CONTROLS))
+        assert np.array_equal(found.C, jacobian(flight, outputs, ALL_STATES))
+        assert np.array_equal(found.D, jacobian(flight, outputs, CONTROLS))
+        names = list(found.trim)
+        assert list(found.trim.values()) == flight.get(*names).tolist()
+    assert np.array_equal(found.C[:2].sum(axis=1), [1.0, 1.0]) and not found.D[:2].any()

@@ -13,8 +13,8 @@ from scipy.signal import welch
 
 import air
 import gusts
+from ahv import linear_model
 from harness import Package
-from linear_model import linear_model
 
 SIGMA, SPEED, PERIOD_S = 1.5, 2400.0, 0.01
 

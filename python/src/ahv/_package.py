@@ -1,0 +1,65 @@
+"""The FMUs inside the package."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from os import PathLike
+from pathlib import Path
+from typing import Literal
+
+from fmpy import extract
+
+# Filled by `cargo ahv wheel`.
+FOLDER = Path(__file__).parent / "data"
+FILES = {"2.0": "ahv.fmu", "3.0": "ahv_fmi3.fmu"}
+TEMPLATES = {"vehicle": "vehicle.toml", "coefficients": "parker2007.toml"}
+
+
+def fmu(version: Literal["2.0", "3.0"] = "2.0") -> Path:
+    """Path of the FMU in the installed package.
+
+    Args:
+        version: of the standard, "2.0" or "3.0".
+
+    Raises:
+        ValueError: there is no FMU for this version of the standard.
+        FileNotFoundError: the package has no FMUs, because it was not installed from a wheel.
+    """
+    if version not in FILES:
+        raise ValueError(f'version is {version!r}; "2.0" or "3.0" is expected')
+    path = FOLDER / FILES[version]
+    if not path.is_file():
+        raise FileNotFoundError(
+            f"{path} does not exist: this copy of the package has no FMUs; install the wheel "
+            "(`cargo ahv wheel`, then `pip install target/ahv-*.whl`) or pass the path of an FMU"
+        )
+    return path
+
+
+def template(kind: Literal["vehicle", "coefficients"]) -> Path:
+    """Path of a data file of the built-in vehicle, to copy and change for `ahv.vehicle`.
+
+    Args:
+        kind: "vehicle", geometry, mass, beam and tanks; or "coefficients", the published
+            coefficients of eq. (4), inertia and envelope.
+
+    Raises:
+        ValueError: there is no such file.
+    """
+    if kind not in TEMPLATES:
+        raise ValueError(f'kind is {kind!r}; "vehicle" or "coefficients" is expected')
+    return FOLDER / TEMPLATES[kind]
+
+
+@contextmanager
+def unzipped(path: str | PathLike[str] | None) -> Iterator[Path]:
+    """The folder of an FMU: `path` itself if it is one, or the FMU unzipped for the duration."""
+    path = fmu() if path is None else Path(path)
+    if path.is_dir():
+        yield path.resolve()
+        return
+    with tempfile.TemporaryDirectory(prefix="ahv_") as folder:
+        extract(path, unzipdir=folder)
+        yield Path(folder).resolve()
