@@ -4,6 +4,7 @@ use crate::workspace::{MAX_TEXT_BYTES, read_text, root};
 use ahv::flight::{Flight, Setup};
 use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
+use fmi_model::standard::Standard;
 use fmi_model::{Kind, Model, Role, Variable, identity::guid_of};
 use quick_xml::escape::escape;
 use std::fmt::Write;
@@ -89,7 +90,7 @@ tool and its version; parameters, inputs, step size and tolerance; the log with 
 categories on (<code>fmi2SetDebugLogging</code>); the result and what you expected.</p>";
 
 /// The page, as valid XHTML; `machines` are the packaged platforms. The same sources give the same bytes.
-pub fn html(setup: &Setup, machines: &[String]) -> Result<String> {
+pub fn html(setup: &Setup, standard: Standard, machines: &[String]) -> Result<String> {
     let mut rows = String::new();
     // Inputs come first, whatever their value reference.
     let (inputs, others): (Vec<_>, Vec<_>) = Setup::VARIABLES
@@ -109,6 +110,10 @@ pub fn html(setup: &Setup, machines: &[String]) -> Result<String> {
     let limits = limits(&setup.fly()?);
     let changes = changes()?;
     let (version, guid) = (env!("CARGO_PKG_VERSION"), guid_of(setup.identity()));
+    let fmi = match standard {
+        Standard::Fmi2 => "2.0",
+        Standard::Fmi3 => "3.0",
+    };
     Ok(format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
@@ -116,7 +121,7 @@ pub fn html(setup: &Setup, machines: &[String]) -> Result<String> {
          <h1>ahv {version}</h1>\n\
          <p>Longitudinal flight of an air-breathing hypersonic vehicle with a flexible fuselage and \
          sloshing propellant, after Xu, Huang and Cai, Trans. Nanjing Univ. Aero. Astro. 32(1), \
-         2015, 81-88. FMI 2.0 for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
+         2015, 81-88. FMI {fmi} for Co-Simulation and Model Exchange. Model {guid}.</p>\n\
          {SUMMARY}\n{data}\n{machines}\n\
          <h2>Use</h2>\n\
          <p>With default parameters the vehicle flies level and trimmed; <code>delta_e</code> and \

@@ -185,7 +185,7 @@ fn contents(libraries: &Libraries, own: &OwnFiles, standard: Standard) -> Result
         .iter()
         .map(|library| platform::machines(library.platform, library.binary.glibc))
         .collect();
-    let page = documentation::html(&setup, &machines)?;
+    let page = documentation::html(&setup, standard, &machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
 }

@@ -47,7 +47,7 @@ fn rubbish_replaces_no_fmu() {
     for (platform, file, told) in [
         ("linux64", &text, "README.md: this is not a shared library"),
         ("linux64", &half, "half.so: "),
-        ("linux64", &tool, "linux64 needs the functions of FMI 2.0: this library has none"),
+        ("linux64", &tool, "linux64 needs the functions of FMI 2.0 and 3.0: this library has none"),
         ("win64", &library(), "win64 needs Pe for X86_64, this is Elf for X86_64"),
         ("aarch64-linux", &library(), "aarch64-linux needs Elf for Aarch64"),
         ("linux64", &directory.path().into(), "is a directory; a file is expected"),
@@ -181,7 +181,8 @@ fn a_foreign_fmu_is_looked_into_before_it_is_loaded() {
             edit("modelIdentifier=\"ahv\"", "modelIdentifier=\"../ahv\""),
             "\"../ahv\" is not a C identifier",
         ),
-        (edit("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""), "is for FMI 3.0; FMI 2.0 is needed"),
+        (edit("fmiVersion=\"2.0\"", "fmiVersion=\"1.0\""), "for FMI 1.0; FMI 2.0 or 3.0 is needed"),
+        (edit("fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""), "missing field `@instantiationToken`"),
         (edit("CoSimulation", "Other"), "does not support co-simulation"),
     ] {
         let file = directory.path().join("foreign.fmu");

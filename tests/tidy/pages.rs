@@ -90,7 +90,13 @@ fn tidy_links_and_pictures_of_every_page_exist() {
             let target = if file.is_empty() { page.clone() } else { target };
             assert!(target.exists(), "{}: {link}", page.display());
             let anchors = fs::read_to_string(&target).unwrap_or_default().to_lowercase();
-            let heading = |line: &str| line.trim_start_matches('#').trim().replace(' ', "-");
+            // Letters, digits and hyphens are kept.
+            let kept = |c: &char| c.is_alphanumeric() || "-_ ".contains(*c);
+            let heading = |line: &str| {
+                let title: String =
+                    line.trim_start_matches('#').trim().chars().filter(kept).collect();
+                title.replace(' ', "-")
+            };
             let known = anchors.lines().any(|line| line.starts_with('#') && heading(line) == place);
             assert!(place.is_empty() || known, "{}: {link}", page.display());
             seen += 1;

@@ -38,7 +38,12 @@ BAD_CALLS = {
     "too late": ("set-int64", ("aero", [2]), "error", "aero = 2 is refused: a fixed parameter"),
     "no such variable": ("get-float64", ([9999],), "error", "9999 is unknown"),
     "another type": ("get-boolean", ([0],), "error", "delta_e .* is no Boolean"),
-    "an absent type": ("get-string", ([0],), "error", "delta_e .* is no String, its type is Float64"),
+    "an absent type": (
+        "get-string",
+        ([0],),
+        "error",
+        "delta_e .* is no String, its type is Float64",
+    ),
     "too few values": ("set-float64", ([0, 1], [0.0]), "error", "so 2 values are needed"),
     "too few seeds": ("get-directional-derivative", ([2], [0], []), "error", "nSeed = 0"),
     "time that is set": ("set-float64", ([TIME], [1.0]), "error", f"{TIME} is unknown"),
