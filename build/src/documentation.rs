@@ -234,7 +234,8 @@ mod tests {
 
     #[test]
     fn page_is_well_formed_and_names_every_variable() {
-        let page = super::html(&Setup::new().unwrap(), &["Linux".to_string()]).unwrap();
+        let page =
+            super::html(&Setup::new().unwrap(), Standard::Fmi3, &["Linux".to_string()]).unwrap();
         let mut reader = quick_xml::Reader::from_str(&page);
         while !matches!(reader.read_event().unwrap(), quick_xml::events::Event::Eof) {}
         for variable in Setup::VARIABLES {
@@ -244,8 +245,9 @@ mod tests {
 
     #[test]
     fn page_cites_the_paper_as_the_citation_file_does_and_tells_changes() {
-        let page =
-            super::html(&Setup::new().unwrap(), &["Linux".to_string()]).unwrap().replace('\n', " ");
+        let page = super::html(&Setup::new().unwrap(), Standard::Fmi3, &["Linux".to_string()])
+            .unwrap()
+            .replace('\n', " ");
         let citation = include_str!("../../CITATION.cff");
         for key in ["    title: ", "    doi: ", "    journal: "] {
             let (_, rest) = citation.split_once(&format!("\n{key}")).unwrap();
