@@ -231,6 +231,7 @@ fn variable_row(
 mod tests {
     use ahv::flight::Setup;
     use fmi_model::Model;
+    use fmi_model::standard::Standard;
 
     #[test]
     fn page_is_well_formed_and_names_every_variable() {

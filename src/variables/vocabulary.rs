@@ -2,7 +2,7 @@
 
 use crate::flight::Setup;
 use crate::vehicle::{self, CONTROLS, NOMINAL, STATES, eta};
-use fmi_model::{Alias, Dependencies, Items, Kind, Unit, Variable};
+use fmi_model::{Dependencies, Items, Kind, Unit, Variable};
 
 /// Turns per radian.
 const HERTZ: f64 = 0.5 / core::f64::consts::PI;
@@ -36,16 +36,6 @@ pub(super) const MASS_PER_WIDTH: &Unit = &Unit::new("kg/m", Some("MassPerWidth")
 pub(super) const MASS_FLOW_PER_WIDTH: &Unit =
     &Unit::new("kg/(m.s)", Some("MassFlowPerWidth"), [1, -1, -1, 0]);
 pub(super) const PRESSURE: &Unit = &Unit::new("Pa", Some("Pressure"), [1, -1, -2, 0]);
-
-/// Another name, shown in the variable's unit.
-pub(super) const fn alias(name: &'static str) -> Alias {
-    Alias { name, display: None }
-}
-
-/// Another name, shown in another unit.
-pub(super) const fn alias_in(display: &'static str, name: &'static str) -> Alias {
-    Alias { name, display: Some(display) }
-}
 
 pub(super) const fn dependent(mask: u64) -> Dependencies {
     Dependencies::dependent(mask)

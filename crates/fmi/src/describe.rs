@@ -54,7 +54,7 @@ fn units<M: Model>(others: &[Unit]) -> Vec<Unit> {
     units
 }
 
-/// Both standards write units alike; FMI 3.0 has those of aliases too.
+/// Both standards write units alike; FMI 3.0 lets a tool choose among several to show.
 fn unit_definitions(xml: &mut Xml, units: &[Unit], standard: Standard) -> io::Result<()> {
     if units.is_empty() {
         return Ok(());

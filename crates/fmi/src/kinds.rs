@@ -12,7 +12,7 @@ pub struct Unit {
     pub base: [i32; 4],
     /// Name of the display unit and its size in the unit's inverse: shown = value * factor.
     pub display: Option<(&'static str, f64)>,
-    /// Other units that aliases are shown in, likewise.
+    /// Other units that a tool for FMI 3.0 may show it in, likewise.
     pub others: &'static [(&'static str, f64)],
 }
 
@@ -32,7 +32,7 @@ impl Unit {
         Self { display: Some((name, factor)), ..self }
     }
 
-    /// The unit, which aliases show in these: shown = value * factor.
+    /// The unit, with others to show it in: shown = value * factor.
     pub const fn with_others(self, others: &'static [(&'static str, f64)]) -> Self {
         Self { others, ..self }
     }

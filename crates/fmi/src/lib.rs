@@ -163,4 +163,4 @@ pub use model::{
     About, Exchange, FromResources, InputDerivatives, InternalStep, Model, ModelError, Remedy,
     Saving, Simulation, Tangent,
 };
-pub use variable::{Alias, Refused, Role, Variable};
+pub use variable::{Refused, Role, Variable};

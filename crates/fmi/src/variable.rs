@@ -39,15 +39,6 @@ impl<M: Model> Copy for Role<M> {}
 /// What a model's outputs are read from.
 pub type SampleOf<M> = <<M as Model>::Simulation as Simulation>::Sample;
 
-/// Another name of a variable, which FMI 3.0 knows: it has the same value reference.
-#[derive(Debug, Clone, Copy)]
-pub struct Alias {
-    /// Name.
-    pub name: &'static str,
-    /// Unit that it is shown in, one of [`Unit::others`]; otherwise as the variable.
-    pub display: Option<&'static str>,
-}
-
 /// One variable.
 #[derive(Debug)]
 pub struct Variable<M: Model> {
@@ -67,8 +58,6 @@ pub struct Variable<M: Model> {
     pub dependencies: Dependencies,
     /// The items of an enumeration that a model has, if its data leave some out.
     pub items: Option<fn(&M) -> Items>,
-    /// Other names.
-    pub aliases: &'static [Alias],
 }
 
 impl<M: Model> Clone for Variable<M> {
@@ -87,8 +76,8 @@ impl<M: Model> Variable<M> {
         dependencies: Dependencies,
     ) -> Self {
         let kind = Kind::Real(unit);
-        let (range, nominal, items, aliases) = (None, None, None, &[]);
-        Self { name, description, kind, role, range, nominal, dependencies, items, aliases }
+        let (range, nominal, items) = (None, None, None);
+        Self { name, description, kind, role, range, nominal, dependencies, items }
     }
 
     /// The input of this number; it starts at zero.
@@ -195,11 +184,6 @@ impl<M: Model> Variable<M> {
             (Kind::Enumeration(name, _), Some(items)) => Kind::Enumeration(name, items(model)),
             (kind, _) => kind,
         }
-    }
-
-    /// The variable with other names.
-    pub const fn also(self, aliases: &'static [Alias]) -> Self {
-        Self { aliases, ..self }
     }
 
     /// Whether a master can set it at all.

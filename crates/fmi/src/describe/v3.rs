@@ -159,16 +159,7 @@ fn write_variable<M: Model>(
             "Enumeration"
         }
     };
-    if variable.aliases.is_empty() {
-        return xml.leaf(element, &attributes);
-    }
-    xml.parent(element, &attributes, |xml| {
-        variable.aliases.iter().try_for_each(|alias| {
-            let mut attributes = vec![("name", alias.name.to_string())];
-            attributes.extend(alias.display.map(|name| ("displayUnit", name.to_string())));
-            xml.leaf("Alias", &attributes)
-        })
-    })
+    xml.leaf(element, &attributes)
 }
 
 fn range<M: Model>(variable: &Variable<M>) -> impl Iterator<Item = (&'static str, String)> {
