@@ -1,6 +1,7 @@
 //! The HTML pages, report and documentation of the FMU, are readable on a phone 400 px wide, as far as this can be
 //! tested without a browser.
 
+use fmi_model::standard::Standard;
 use std::fs;
 use std::process::Command;
 use std::sync::LazyLock;
@@ -27,8 +28,8 @@ static REPORT: LazyLock<String> = LazyLock::new(|| {
 });
 
 fn documentation() -> String {
-    ahv_tool::documentation::html(&ahv::flight::Setup::new().unwrap(), &["Linux".to_string()])
-        .unwrap()
+    let setup = ahv::flight::Setup::new().unwrap();
+    ahv_tool::documentation::html(&setup, Standard::Fmi2, &["Linux".to_string()]).unwrap()
 }
 
 fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {
