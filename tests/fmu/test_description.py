@@ -13,7 +13,12 @@ from fmpy.validation import validate_fmu
 from contract import COMPLETE, CONTRACT, ENUMERATIONS, EXPERIMENT, START, UNITS, Entry
 from harness import ALL_DERIVATIVES, ALL_STATES, EVERYTHING, INPUTS, Package
 
-MAGIC = {"linux": b"\x7fELF\x02", "win": b"MZ", "darwin": b"\xcf\xfa\xed\xfe"}
+# On macOS of one processor, or of both.
+MAGIC = {
+    "linux": (b"\x7fELF\x02",),
+    "win": (b"MZ",),
+    "darwin": (b"\xcf\xfa\xed\xfe", b"\xca\xfe\xba\xbe"),
+}
 LIBRARY = {"linux": "ahv.so", "win": "ahv.dll", "darwin": "ahv.dylib"}
 
 
@@ -59,7 +64,8 @@ def test_verif_archive_has_a_binary_for_this_platform(package: Package) -> None:
         assert binaries
         for name in binaries:
             _, platform, file = name.split("/")
-            system = platform.rstrip("0123456789")
+            # linux64, aarch64-linux
+            system = platform.rpartition("-")[2].rstrip("0123456789")
             assert file == LIBRARY[system], name
             assert archive.read(name).startswith(MAGIC[system]), name
 

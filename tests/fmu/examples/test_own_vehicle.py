@@ -93,7 +93,7 @@ def test_verif_a_state_of_another_vehicle_is_refused(own: Package, package: Pack
     [
         ('unit = "kg/m^2"', 'unit = "lb/ft^2"', "mass.fore_beam_kg_per_m2: the unit is lb/ft^2"),
         ("value = 0.65", "value = 6.5", "mass.propellant_fraction: 6.5 must lie in [0, 1]"),
-        ("[beam]", "[baem]", "unknown field `baem`"),
+        ("[beam]", "[baem]", "baem: unknown key"),
     ],
 )
 def test_wrong_data_are_refused_before_anything_is_built(

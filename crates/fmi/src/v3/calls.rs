@@ -2,6 +2,9 @@
 //!
 //! There is no configuration mode (no structural parameters), no reconfiguration and no clock activation mode;
 //! step mode is left for event mode only by a master that says `eventModeUsed`, which is refused.
+//!
+//! Wider than the standard, as importers do it and it harms nobody: the numbers of states and event indicators in
+//! all states, as fmi-rs asks for them between events, and the time in event mode, as in FMI 2.0.
 
 use crate::instance::Interface;
 use crate::phase::{Call, Phase, calls};
@@ -84,14 +87,14 @@ calls! { Fmi3:
     UPDATE_DISCRETE_STATES "fmi3UpdateDiscreteStates" EVENT;
     ENTER_CONTINUOUS_TIME_MODE "fmi3EnterContinuousTimeMode" EVENT, only ModelExchange;
     COMPLETED_INTEGRATOR_STEP "fmi3CompletedIntegratorStep" CONTINUOUS, only ModelExchange;
-    SET_TIME "fmi3SetTime" CONTINUOUS, only ModelExchange;
+    SET_TIME "fmi3SetTime" EVENT | CONTINUOUS, only ModelExchange;
     SET_CONTINUOUS_STATES "fmi3SetContinuousStates" CONTINUOUS, only ModelExchange;
     GET_CONTINUOUS_STATE_DERIVATIVES "fmi3GetContinuousStateDerivatives" EXCHANGE, only ModelExchange;
     GET_EVENT_INDICATORS "fmi3GetEventIndicators" EXCHANGE, only ModelExchange;
     GET_CONTINUOUS_STATES "fmi3GetContinuousStates" EXCHANGE, only ModelExchange;
     GET_NOMINALS_OF_CONTINUOUS_STATES "fmi3GetNominalsOfContinuousStates" EXCHANGE, only ModelExchange;
-    GET_NUMBER_OF_EVENT_INDICATORS "fmi3GetNumberOfEventIndicators" INSTANTIATED | EVENT, only ModelExchange;
-    GET_NUMBER_OF_CONTINUOUS_STATES "fmi3GetNumberOfContinuousStates" INSTANTIATED | EVENT, only ModelExchange;
+    GET_NUMBER_OF_EVENT_INDICATORS "fmi3GetNumberOfEventIndicators" INSTANTIATED | EXCHANGE, only ModelExchange;
+    GET_NUMBER_OF_CONTINUOUS_STATES "fmi3GetNumberOfContinuousStates" INSTANTIATED | EXCHANGE, only ModelExchange;
     ENTER_STEP_MODE "fmi3EnterStepMode" EVENT, only CoSimulation;
     GET_OUTPUT_DERIVATIVES "fmi3GetOutputDerivatives" STEP | ENDED | TERMINATED | INTERMEDIATE, only CoSimulation;
     DO_STEP "fmi3DoStep" STEP, only CoSimulation;

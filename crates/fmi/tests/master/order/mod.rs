@@ -34,7 +34,7 @@ pub trait Order: Api {
         };
         match row.as_bytes()[column] {
             b'x' => true,
-            b'm' => interface == Interface::ModelExchange,
+            b'm' | b'M' => interface == Interface::ModelExchange,
             b'c' => interface == Interface::CoSimulation,
             b' ' => false,
             other => panic!("{name}: {other}"),
