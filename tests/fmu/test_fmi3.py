@@ -282,6 +282,27 @@ def test_verif_inputs_move_within_a_step_as_by_derivatives_of_fmi2(
         assert three["delta_e"] == pytest.approx(0.05 * 20 * STEP)
 
 
+def test_verif_inputs_stop_where_a_step_returned_early(package3: Package3) -> None:
+    """The next step holds them, unless the master says where they go on to."""
+    reference = package3.references("delta_e")
+
+    def move(_env, time, asked, _allowed, finished, early, requested, when) -> None:
+        if first and asked and not finished:
+            slave.fmu.setFloat64(reference, [0.01])
+        requested[0], when[0] = first and finished and early, time
+
+    options = {"intermediateUpdate": move, "requiredIntermediateVariables": reference}
+    with package3.slave(earlyReturnAllowed=True, **options).initialise() as slave:
+        first = True
+        _, _, early, time = slave.fmu.doStep(0.0, 0.5)
+        reached = slave["delta_e"]
+        assert early and 0.0 < reached < 0.01
+        assert reached == pytest.approx(0.01 * time / 0.5)
+        first = False
+        slave.fmu.doStep(time, 0.5)
+        assert slave["delta_e"] == reached
+
+
 def test_verif_a_flight_out_of_the_envelope_asks_to_be_terminated(package3: Package3) -> None:
     """The step succeeds as far as it went, says why, and the next one is refused."""
     for allowed in (True, False):
