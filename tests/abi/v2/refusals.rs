@@ -27,7 +27,7 @@ fn refused_arguments_are_named_for_what_they_are() {
     says(slave.set("mach0", 7.0), ERROR, &["mach0 = 7 is refused", "before the end of"]);
     says(slave.set("w_gust", 300.0), ERROR, &["w_gust = 300", "the range is [-200, 200]"]);
     says(slave.set("phi", f64::NAN), ERROR, &["phi = NaN", "a finite number"]);
-    says(slave.set_enumeration("V", 1), ERROR, &["V (value reference 2)", "it is a Real"]);
+    says(slave.set_enumeration("V", 1), ERROR, &["V (value reference 2)", "its type is Real"]);
     says(
         slave.set_input_derivative("V", 1, 1.0),
         ERROR,

@@ -53,7 +53,7 @@ fn every_variable_is_read_by_the_function_of_its_type_and_refused_by_the_others(
     }
     let log = slave.log();
     let says = |text: &str| log.iter().any(|record| record.message.contains(text));
-    assert!(says("configuration (value reference") && says("it is a Int64 (Enumeration)"));
+    assert!(says("configuration (value reference") && says("its type is Enumeration (Int64)"));
     slave.free(saved);
 }
 
