@@ -1,8 +1,10 @@
-//! A step allocates nothing. A binary of its own: it replaces the allocator.
+//! A step allocates nothing, and no data file makes the library allocate much. A binary of its own: it replaces the
+//! allocator.
 #![allow(unsafe_code)]
 
 mod model;
 
+use ahv::data::{DataFile, VEHICLE, VehicleData};
 use ahv::flight::Setup;
 use ahv::vehicle::DELTA_E;
 use fmi_model::failure::Outcome;
@@ -12,6 +14,9 @@ use std::cell::Cell;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    /// Bytes in use, of what this thread allocated and freed, and their largest number.
+    static LIVE: Cell<isize> = const { Cell::new(0) };
+    static PEAK: Cell<isize> = const { Cell::new(0) };
 }
 
 /// Counts what this thread asks the system's allocator for.
@@ -21,10 +26,13 @@ struct Counting;
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        LIVE.with(|live| live.set(live.get() + layout.size() as isize));
+        PEAK.with(|peak| peak.set(peak.get().max(LIVE.with(Cell::get))));
         // SAFETY: the caller's promise is ours.
         unsafe { System.alloc(layout) }
     }
     unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        LIVE.with(|live| live.set(live.get() - layout.size() as isize));
         // SAFETY: the caller's promise is ours.
         unsafe { System.dealloc(pointer, layout) }
     }
@@ -45,6 +53,35 @@ fn verif_a_step_with_all_outputs_allocates_nothing() {
             flight.evaluate().unwrap();
         }
         assert_eq!(ALLOCATIONS.with(Cell::get) - before, 0, "{configuration:?}");
+    }
+}
+
+/// Bytes that a hostile file may cost.
+const MOST_BYTES: isize = 64_000_000;
+
+#[test]
+fn verif_no_data_file_costs_more_than_64_mb() {
+    let numbers = |count: usize| format!("x = [{}]", "0,".repeat(count));
+    let stations = VEHICLE.text.replacen(
+        "mass_kg_per_m",
+        &format!("# {}\nmass_kg_per_m", "9".repeat(900_000)),
+        1,
+    );
+    for text in [
+        "x = ".to_string() + &"[".repeat(900_000),
+        "x = ".to_string() + &"{a=".repeat(300_000),
+        numbers(9_990),
+        numbers(450_000),
+        (0..90_000).map(|i| format!("k{i}=1\n")).collect(),
+        "[[a]]\n".repeat(150_000),
+        format!("x = \"{}\"", "a".repeat(900_000)),
+        stations,
+    ] {
+        let before = LIVE.with(Cell::get);
+        PEAK.with(|peak| peak.set(before));
+        let _ = VehicleData::parse("mine.toml", &text);
+        let cost = PEAK.with(Cell::get) - before;
+        assert!(cost > 0 && cost < MOST_BYTES, "{cost} bytes for {}", &text[..20]);
     }
 }
 
