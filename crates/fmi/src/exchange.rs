@@ -75,7 +75,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// [`Failure::Argument`], [`Failure::State`]; the state is then as it was.
     pub fn set_continuous_states(&mut self, states: &[f64]) -> Outcome {
-        expect("nx", states.len(), table::states::<M>())?;
+        expect("number of states", states.len(), table::states::<M>())?;
         for (number, &value) in states.iter().enumerate() {
             check_state(|| table::state::<M>(number).name, value)?;
         }
@@ -89,7 +89,7 @@ impl<M: Model> Instance<M> {
     /// [`Failure::Argument`]; [`Failure::Model`] if the model cannot be evaluated, as at a trial state
     /// without numbers; [`Failure::NotFinite`]. No value is written then.
     pub fn derivatives(&mut self, length: usize, write: impl FnOnce(&[f64])) -> Outcome {
-        expect("nx", length, table::states::<M>())?;
+        expect("number of states", length, table::states::<M>())?;
         let derivatives = M::Simulation::derivatives(self.running()?.evaluate()?);
         if let Some(number) = derivatives.iter().position(|value| !value.is_finite()) {
             let (variable, value) = (table::state::<M>(number).name, derivatives[number]);
@@ -104,7 +104,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// [`Failure::Argument`]; [`Failure::Model`] if there is no initial state.
     pub fn continuous_states(&mut self, length: usize, write: impl FnOnce(&[f64])) -> Outcome {
-        expect("nx", length, table::states::<M>())?;
+        expect("number of states", length, table::states::<M>())?;
         write(self.running()?.states());
         Ok(())
     }
@@ -114,7 +114,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// [`Failure::Argument`].
     pub fn nominals(&self, length: usize, mut write: impl FnMut(usize, f64)) -> Outcome {
-        expect("nx", length, table::states::<M>())?;
+        expect("number of states", length, table::states::<M>())?;
         for number in 0..length {
             write(number, table::state::<M>(number).nominal.unwrap_or(1.0));
         }
@@ -126,7 +126,7 @@ impl<M: Model> Instance<M> {
     /// # Errors
     /// [`Failure::Argument`].
     pub fn event_indicators(&self, length: usize) -> Outcome {
-        expect("ni", length, EVENT_INDICATORS)
+        expect("number of event indicators", length, EVENT_INDICATORS)
     }
 
     /// Whether the simulation should end.
