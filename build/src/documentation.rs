@@ -89,6 +89,16 @@ import. Otherwise send the authors: version and identifier of the model; platfor
 tool and its version; parameters, inputs, step size and tolerance; the log with all
 categories on (<code>fmi2SetDebugLogging</code>); the result and what you expected.</p>";
 
+/// What the page says of FMI 2.0, and of FMI 3.0.
+const FMI3: [(&str, &str); 3] = [
+    ("fmi2SetDebugLogging", "fmi3SetDebugLogging"),
+    ("ends early with fmi2Discard", "ends early with terminateSimulation"),
+    (
+        "follow the derivatives (orders 1 to 3) that\nthe master sets for the step",
+        "move linearly to where\nthe master says that they will be at its end",
+    ),
+];
+
 /// The page, as valid XHTML; `machines` are the packaged platforms. The same sources give the same bytes.
 pub fn html(setup: &Setup, standard: Standard, machines: &[String]) -> Result<String> {
     let mut rows = String::new();
@@ -114,7 +124,7 @@ pub fn html(setup: &Setup, standard: Standard, machines: &[String]) -> Result<St
         Standard::Fmi2 => "2.0",
         Standard::Fmi3 => "3.0",
     };
-    Ok(format!(
+    let page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
          <title>ahv {version}</title><style>{STYLE}</style></head>\n<body>\n\
@@ -137,7 +147,11 @@ pub fn html(setup: &Setup, standard: Standard, machines: &[String]) -> Result<St
          <h2>Licences</h2>\n<p>{}. The texts, and those of the libraries inside the binary, are in \
          <a href=\"licenses/\">licenses</a>.</p>\n</body>\n</html>\n",
         env!("CARGO_PKG_LICENSE")
-    ))
+    );
+    Ok(match standard {
+        Standard::Fmi2 => page,
+        Standard::Fmi3 => FMI3.iter().fold(page, |page, (two, three)| page.replace(two, three)),
+    })
 }
 
 /// A number without the rounding errors of unit conversion.

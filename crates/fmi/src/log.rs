@@ -41,7 +41,7 @@ impl Category {
     pub const fn description(self, events: &'static str) -> &'static str {
         match self {
             Self::Events => events,
-            Self::StatusDiscard => "Steps that ended early, and why",
+            Self::StatusDiscard => "What was discarded or ended early, and why; always logged",
             Self::StatusError => "Refused calls, and why; always logged",
             Self::StatusFatal => "Internal errors; always logged",
         }

@@ -101,6 +101,9 @@ impl Call {
 
     /// Names of the states in which it may be called.
     pub(crate) fn allowed_names(&self) -> String {
+        if self.allowed == 0 {
+            return "no state, as the model has nothing for it".to_string();
+        }
         let allowed = PHASES.iter().filter(|&&phase| self.allowed_in(phase));
         allowed.map(|phase| phase.name(self.standard)).collect::<Vec<_>>().join(", ")
     }

@@ -56,6 +56,13 @@ pub(crate) fn variable<M: Model>(
     reference: u32,
     asked: &Type,
 ) -> Result<&'static Variable<M>, Failure> {
+    if reference == TIME && asked.standard == Standard::Fmi3 {
+        let (variable, has) = ("time", name_of(&TIME_KIND, asked.standard));
+        return Err(match (asked.fits)(&TIME_KIND) {
+            true => Failure::NoDerivative { variable, served: "can only be read" },
+            false => Failure::WrongType { variable, reference, asked: asked.name, has },
+        });
+    }
     let Some(variable) = M::VARIABLES.get(reference as usize) else {
         return Err(Failure::UnknownReference { reference, count: M::VARIABLES.len() });
     };

@@ -36,7 +36,7 @@ class LinearModel(NamedTuple):
 
 def linear_model(
     fmu: str | PathLike[str] | None = None,
-    outputs: Sequence[str] = ("V", "gamma"),
+    outputs: str | Sequence[str] = ("V", "gamma"),
     inputs: Sequence[str] = ("delta_e", "phi"),
     **parameters: float | bool | str,
 ) -> LinearModel:
@@ -47,7 +47,7 @@ def linear_model(
     Args:
         fmu: path of an FMU, of FMI 2.0 or 3.0, or of the folder that it was unzipped to; by
             default the FMU of this package. A folder is faster for many models.
-        outputs: names of y.
+        outputs: names of y, or one name.
         inputs: names of u.
         **parameters: of the FMU, such as `mach0=9.0`; enumerations by name or number, such as
             `configuration="Rigid"`.
@@ -59,6 +59,7 @@ def linear_model(
     Example:
         >>> np.linalg.eigvals(linear_model(mach0=9.0).A)  # poles, rad/s
     """
+    outputs = (outputs,) if isinstance(outputs, str) else outputs
     with unzipped(fmu) as folder, Instance(folder) as instance:
         rates = [unknown.variable for unknown in instance.description.derivatives]
         states = [rate.derivative.name for rate in rates]

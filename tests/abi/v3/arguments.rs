@@ -138,13 +138,13 @@ fn time_is_a_variable_that_only_steps_and_a_master_that_integrates_move() {
     assert_eq!(slave.exit(), Status::Ok);
     assert_eq!(slave.step(2.5, 0.125), Status::Ok);
     assert_eq!(slave.reals(&[TIME, reference("V")]).1[0], 2.625, "beside others");
-    slave.refuses(ERROR, &["2147483647"], |slave| slave.set_reals(&[TIME], &[0.0]));
+    slave.refuses(ERROR, &["time can only be read"], |slave| slave.set_reals(&[TIME], &[0.0]));
     slave.refuses(ERROR, &["2147483647"], |slave| {
         api.directional(slave.c, &[reference("der(q)")], &[TIME], &[1.0], &mut [0.0])
     });
     // SAFETY: room for one value.
     let as_integer = |slave: &Slave| unsafe { (api.get_int64)(slave.c, &TIME, 1, &mut 0, 1) };
-    slave.refuses(ERROR, &["2147483647"], as_integer);
+    slave.refuses(ERROR, &["time (value reference 2147483647) is no Int64"], as_integer);
     let exchange = Slave::exchange(&api);
     exchange.start();
     assert_eq!(api.enter_continuous_time_mode(exchange.c), Status::Ok);

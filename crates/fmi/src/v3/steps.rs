@@ -46,13 +46,16 @@ impl<M: Model> Instance<M> {
         let simulation = self.running()?;
         let length = end - simulation.time();
         for (number, &start) in start.iter().enumerate().take(inputs::<M>()) {
+            let Some(moving) = &M::Simulation::INPUT_DERIVATIVES else { continue };
             let slope = (simulation.inputs()[number] - start) / length;
-            simulation.set_input(number, start);
-            if let Some(moving) = &M::Simulation::INPUT_DERIVATIVES {
-                // Zero too: a step that returned early may have left another slope.
-                let slope = if slope.abs() <= LARGEST { slope } else { 0.0 };
-                (moving.set)(simulation, number, 1, slope);
-            }
+            // Zero too: a step that returned early may have left another slope. What is too steep is a jump.
+            let slope = if slope.abs() <= LARGEST {
+                simulation.set_input(number, start);
+                slope
+            } else {
+                0.0
+            };
+            (moving.set)(simulation, number, 1, slope);
         }
         Ok(())
     }
