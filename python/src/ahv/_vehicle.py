@@ -19,7 +19,9 @@ DESCRIPTION = "modelDescription.xml"
 VEHICLE, COEFFICIENTS = "resources/vehicle.toml", "resources/aero.toml"
 # What the package says of the built-in vehicle alone: its page, and its reference flight.
 REFERENCE = "extra/org.fmi-standard.fmi-ls-ref/"
-BUILT_IN = ("documentation/index.html", "documentation/cross-check/", REFERENCE)
+# A WebAssembly component reads no files.
+COMPONENT = ("binaries/wasm32-wasip2/", "extra/org.modelica.fmi-ls-wasm/")
+BUILT_IN = ("documentation/index.html", "documentation/cross-check/", REFERENCE, *COMPONENT)
 # Files that an instance needs.
 NEEDED = (DESCRIPTION, "binaries/", "resources/")
 NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
