@@ -46,7 +46,7 @@ BAD_CALLS = {
     ),
     "too few values": ("set-float64", ([0, 1], [0.0]), "error", "so 2 values are needed"),
     "too few seeds": ("get-directional-derivative", ([2], [0], []), "error", "nSeed = 0"),
-    "time that is set": ("set-float64", ([TIME], [1.0]), "error", f"{TIME} is unknown"),
+    "time that is set": ("set-float64", ([TIME], [1.0]), "error", "time can only be read"),
     "out of order": ("exit-initialization-mode", (), "error", "not allowed in state"),
     "a mode it has not": ("enter-event-mode", (), "error", "not allowed in state"),
     "a step back": ("do-step", (-1.0, 0.1, True), "error", "currentCommunicationPoint = -1 s"),
