@@ -19,6 +19,7 @@ use crate::own_vehicle::{self, OwnVehicle};
 use crate::workspace::{MAX_BINARY_BYTES, can_write, read, root, shown, write};
 use crate::{documentation, licenses};
 use ahv::data::OwnFiles;
+use ahv::flight::Setup;
 use anyhow::{Context, Result, bail};
 pub use binary::Binary;
 use fmi_model::archive::zip;
@@ -97,16 +98,18 @@ pub fn build(output: &Path, targets: Targets) -> Result<()> {
 /// Writes the FMUs; prints their platforms and dependencies.
 fn package(libraries: Libraries, own: &OwnFiles, output: &Path) -> Result<()> {
     let host = host()?;
-    let mut flown = None;
+    let setup = own_vehicle::setup(own)?;
+    // What both standards have alike is found once.
+    let mut same = libraries.licenses.clone().map_or_else(licenses::collect, Ok)?;
+    same.extend(terminals::files()?);
+    same.extend(resources(own));
     for standard in Standard::ALL {
-        let mut files = contents(&libraries, own, standard)?;
-        if libraries.get(host).is_some() {
-            let found = match flown.take() {
-                Some(found) => found,
-                None => reference(&files, libraries.prebuilt)?,
-            };
-            files.extend(found.clone());
-            flown = Some(found);
+        let mut files = contents(&libraries, &setup, standard)?;
+        files.extend(same.clone());
+        if standard == Standard::Fmi2 && libraries.get(host).is_some() {
+            let flown = reference(&files, libraries.prebuilt)?;
+            files.extend(flown.clone());
+            same.extend(flown);
         }
         write_fmu(files, &of(standard, output))?;
     }
@@ -162,20 +165,22 @@ pub fn component(output: &Path) -> Result<Vec<u8>> {
 /// Files of the FMU, by name.
 type Files = BTreeMap<String, Vec<u8>>;
 
-fn contents(libraries: &Libraries, own: &OwnFiles, standard: Standard) -> Result<Files> {
-    let setup = own_vehicle::setup(own)?;
+/// The user's data files.
+fn resources(own: &OwnFiles) -> Files {
+    [(OwnFiles::VEHICLE, &own.vehicle), (OwnFiles::COEFFICIENTS, &own.coefficients)]
+        .into_iter()
+        .filter_map(|(name, file)| {
+            let text = file.as_ref()?.text.clone();
+            Some((format!("resources/{name}"), text.into_bytes()))
+        })
+        .collect()
+}
+
+/// What an FMU has for its standard alone.
+fn contents(libraries: &Libraries, setup: &Setup, standard: Standard) -> Result<Files> {
     let mut files = Files::new();
-    let xml = describe::xml_of(&setup, standard)?;
+    let xml = describe::xml_of(setup, standard)?;
     files.insert("modelDescription.xml".to_string(), xml.into_bytes());
-    for (name, file) in
-        [(OwnFiles::VEHICLE, &own.vehicle), (OwnFiles::COEFFICIENTS, &own.coefficients)]
-    {
-        if let Some(file) = file {
-            files.insert(format!("resources/{name}"), file.text.clone().into_bytes());
-        }
-    }
-    files.extend(libraries.licenses.clone().map_or_else(licenses::collect, Ok)?);
-    files.extend(terminals::files()?);
     if standard == Standard::Fmi2 {
         files.insert("model.png".to_string(), icon("vehicle")?);
     }
@@ -185,7 +190,7 @@ fn contents(libraries: &Libraries, own: &OwnFiles, standard: Standard) -> Result
         .iter()
         .map(|library| platform::machines(library.platform, library.binary.glibc))
         .collect();
-    let page = documentation::html(&setup, standard, &machines)?;
+    let page = documentation::html(setup, standard, &machines)?;
     files.insert("documentation/index.html".to_string(), page.into_bytes());
     Ok(files)
 }
