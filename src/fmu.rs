@@ -15,8 +15,8 @@ use crate::vehicle::ALPHA;
 use fmi_model::identity::{fnv, hash_of_table};
 use fmi_model::instance::LARGEST;
 use fmi_model::{
-    About, Exchange, FromResources, InputDerivatives, InternalStep, Model, Saving, Simulation,
-    Tangent, Variable,
+    About, Exchange, InputDerivatives, InternalStep, Model, Resources, Saving, Simulation, Tangent,
+    Variable,
 };
 
 impl Model for Setup {
@@ -47,8 +47,8 @@ impl Model for Setup {
         }
         hash
     };
-    const RESOURCES: Option<FromResources<Self>> =
-        Some(|folder| Ok(Self::of(Data::with(&OwnFiles::in_folder(folder)?)?)));
+    const RESOURCES: Resources<Self> =
+        Resources::Identified(|folder| Ok(Self::of(Data::with(&OwnFiles::in_folder(folder)?)?)));
     const DEFAULT_TOLERANCE: f64 = DEFAULT_TOLERANCE;
     const TOLERANCES: [f64; 2] = TOLERANCES;
 

@@ -1,28 +1,37 @@
-"""Design of the autopilot and margins of the loop, with python-control."""
+"""Design of the autopilot and margins of the loop, with python-control.
+
+As a program: gains scheduled over fuel, as `law.json` or in a copy of the FMU ahv_autopilot.
+"""
 
 from __future__ import annotations
 
+import argparse
 import sys
+import tempfile
+import zipfile
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 import control as ct
 import numpy as np
+from fmpy import extract
 
 HERE = Path(__file__).resolve().parent
 # The package of this repository, unless it is installed.
 sys.path.append(str(HERE.parents[1] / "python/src"))
 from ahv import LinearModel, linear_model
-from law import HIGH, LOW, PERIOD_S, Law
+from law import PERIOD_S, Law, save_schedule
 
 MEASURED = ("V", "gamma", "q")
+SLOSHING = ("slosh1", "slosh2")
 RIGID, EVEN, SLOSH = 1, 2, 3
 DEG = np.pi / 180
 # States of the design model; height hardly affects V, gamma and q within seconds.
 RIGID_STATES = ["V", "gamma", "alpha", "q"]
 FLEXIBLE_STATES = [f"eta{i}{suffix}" for i in (1, 2, 3) for suffix in ("", "_dot")]
-SLOSH_STATES = [f"eta_slosh{i}{suffix}" for i in (1, 2) for suffix in ("", "_dot")]
+SLOSH_STATES = [f"{slosh}{suffix}" for slosh in SLOSHING for suffix in ("", "_dot")]
 STATES = {
     RIGID: RIGID_STATES,
     EVEN: RIGID_STATES + FLEXIBLE_STATES,
@@ -38,11 +47,40 @@ EFFORT = np.array([1.0 * DEG, 0.1])
 INPUT_NOISE = np.array([1.0 * DEG, 0.05])
 STATE_NOISE = {"V": 0.01, "gamma": 0.001 * DEG, "q": 0.01 * DEG}
 SENSOR_NOISE = np.array([0.5, 0.02 * DEG, 0.02 * DEG])
+# Fuel fractions of a schedule: dense where the margins of interpolated gains need it.
+FUELS = [
+    *(0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.25),
+    *(0.3, 0.4, 0.5, 0.75, 1.0),
+]
+LAW = "resources/law.json"
 
 
 def model(folder: str, **parameters: float) -> LinearModel:
-    """Linear model of the FMU unzipped in `folder`, with the measurements of the autopilot."""
-    return linear_model(folder, MEASURED, **parameters)
+    """Linear model of the FMU unzipped in `folder`, with the measurements of the autopilot.
+
+    With the displacements of the liquid in place of the slosh modes: where their frequencies cross,
+    the modes change places, and gains between two levels of fuel could not be interpolated.
+    """
+    full = linear_model(folder, (*MEASURED, *SLOSHING), **parameters)
+    liquid, measured = full.C[len(MEASURED) :], full.C[: len(MEASURED)]
+    old = [full.states.index(f"eta_{slosh}") for slosh in SLOSHING]
+    names = [name.removeprefix("eta_") if "slosh" in name else name for name in full.states]
+    change = np.eye(len(names))
+    if liquid.any():
+        change[old] = liquid
+        # A mode's rate stands behind it.
+        moving = np.flatnonzero(liquid.any(axis=0))
+        for row, displacement in zip(old, liquid, strict=True):
+            change[row + 1, moving + 1] = displacement[moving]
+    back = np.linalg.inv(change)
+    return full._replace(
+        A=change @ full.A @ back,
+        B=change @ full.B,
+        C=measured @ back,
+        D=full.D[: len(MEASURED)],
+        states=names,
+        outputs=list(MEASURED),
+    )
 
 
 def rigid_model(folder: str) -> LinearModel:
@@ -54,22 +92,27 @@ def rigid_model(folder: str) -> LinearModel:
     return model(folder, configuration=RIGID, mass_centre_shift=centres[1] - centres[0])
 
 
-def sampled(full: LinearModel, states: Sequence[str]) -> ct.StateSpace:
+def sampled(full: LinearModel, states: Sequence[str], period_s: float = PERIOD_S) -> ct.StateSpace:
     """The model with these states only, discretised with held inputs."""
     kept = [full.states.index(name) for name in states]
     plant = ct.ss(full.A[np.ix_(kept, kept)], full.B[kept], full.C[:, kept], full.D)
-    return ct.sample_system(plant, PERIOD_S, "zoh")
+    return ct.sample_system(plant, period_s, "zoh")
 
 
-def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1.0) -> Law:
+def design(
+    full: LinearModel,
+    configuration: int = SLOSH,
+    input_noise: float = 1.0,
+    period_s: float = PERIOD_S,
+) -> Law:
     """LQR with integral action and a Kalman filter, for a model of this configuration."""
     states = STATES[configuration]
     assert tuple(full.outputs) == MEASURED and states[:2] == ["V", "gamma"]
-    plant, n = sampled(full, states), len(states)
+    plant, n = sampled(full, states, period_s), len(states)
     weight = np.zeros(n + 2)
     weight[:2], weight[n:] = 1 / ERROR**2, 1 / (ERROR * VANISH_S) ** 2
     gain, _, _ = ct.dlqr(
-        plant, np.diag(weight), np.diag(1 / EFFORT**2), integral_action=PERIOD_S * plant.C[:2]
+        plant, np.diag(weight), np.diag(1 / EFFORT**2), integral_action=period_s * plant.C[:2]
     )
     noise = plant.B @ np.diag((input_noise * INPUT_NOISE) ** 2) @ plant.B.T
     for name, deviation in STATE_NOISE.items():
@@ -77,9 +120,8 @@ def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1
     # The gain of the one-step predictor: A P C' (C P C' + R)^-1.
     predictor, _, _ = ct.dlqe(plant.A, np.eye(n), plant.C, noise, np.diag(SENSOR_NOISE**2))
     trim = full.trim
-    at_trim = np.array([trim["delta_e_trim"], trim["phi_trim"]])
     return Law(
-        period_s=PERIOD_S,
+        period_s=period_s,
         A=plant.A,
         B=plant.B,
         C=plant.C,
@@ -87,8 +129,8 @@ def design(full: LinearModel, configuration: int = SLOSH, input_noise: float = 1
         Ki=gain[:, n:],
         L=predictor,
         level=np.array([trim[name] for name in MEASURED]),
-        low=LOW - at_trim,
-        high=HIGH - at_trim,
+        trim=np.array([trim["delta_e_trim"], trim["phi_trim"]]),
+        fuel_mass_kg_per_m=trim["fuel_mass"],
     )
 
 
@@ -163,3 +205,54 @@ def response(system: ct.StateSpace, z: np.ndarray) -> np.ndarray:
     """Frequency response at the points z, shape (points, outputs, inputs)."""
     shifted = z[:, None, None] * np.eye(len(system.A)) - system.A
     return system.C @ np.linalg.solve(shifted, np.broadcast_to(system.B, (len(z), *system.B.shape)))
+
+
+def schedule(folder: str, fuels: Sequence[float], period_s: float = PERIOD_S) -> list[Law]:
+    """Designs for these fuel fractions, of the default vehicle otherwise."""
+    return [
+        replace(design(model(folder, fuel_fraction=fuel), period_s=period_s), fuel_fraction=fuel)
+        for fuel in fuels
+    ]
+
+
+def with_law(autopilot: Path, law: Path, path: Path) -> None:
+    """Write a copy of the FMU ahv_autopilot with another law."""
+    new = path.with_name(path.name + ".new")
+    with zipfile.ZipFile(autopilot) as old, zipfile.ZipFile(new, "w") as archive:
+        for entry in old.infolist():
+            content = law.read_bytes() if entry.filename == LAW else old.read(entry)
+            archive.writestr(entry, content)
+    new.replace(path)
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
+    parser.add_argument("--fuel", type=float, nargs="+", default=FUELS, help="fuel fractions")
+    parser.add_argument(
+        "--period", type=float, nargs="+", default=[PERIOD_S], help="sampling periods, s"
+    )
+    parser.add_argument("--autopilot", type=Path, help="FMU to copy; then --output is an FMU too")
+    parser.add_argument("--output", type=Path, default=Path("target/closed_loop/law.json"))
+    options = parser.parse_args()
+    for file in (options.fmu, options.autopilot):
+        if file and not file.is_file():
+            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
+    if min(options.period) <= 0.0 or min(options.fuel) < 0.0 or max(options.fuel) > 1.0:
+        sys.exit("error: periods must be positive, and fuel fractions within 0 and 1")
+    folder = extract(str(options.fmu))
+    fuels = sorted(set(options.fuel))
+    laws = [law for period_s in options.period for law in schedule(folder, fuels, period_s)]
+    options.output.parent.mkdir(parents=True, exist_ok=True)
+    if options.autopilot is None:
+        save_schedule(options.output, laws)
+    else:
+        with tempfile.TemporaryDirectory() as name:
+            save_schedule(Path(name) / "law.json", laws)
+            with_law(options.autopilot, Path(name) / "law.json", options.output)
+    print(f"{options.output}: {len(laws)} designs")
+
+
+if __name__ == "__main__":
+    main()

@@ -6,6 +6,7 @@ Used by the FMU (autopilot.py), the margins (design.py) and the ensemble.
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
 from pathlib import Path
@@ -38,24 +39,46 @@ class Law:
     Ki: np.ndarray  # (2, 2) on the integrals of the errors of V, m, and gamma, rad s
     L: np.ndarray  # (n, 3) Kalman filter
     level: np.ndarray  # (3,) measurements in level flight
-    low: np.ndarray  # (2,) smallest command, as a deviation from trim, rad and 1
-    high: np.ndarray  # (2,) largest
+    trim: np.ndarray  # (2,) delta_e, rad, and phi in level flight
+    fuel_fraction: float = 1.0  # of the vehicle that it is designed for
+    fuel_mass_kg_per_m: float = 0.0
+    # Absolute limits of the commands, and the limit of the speed error, m/s.
+    lowest: np.ndarray = field(default_factory=LOW.copy)
+    highest: np.ndarray = field(default_factory=HIGH.copy)
+    speed_error_m_per_s: float = SPEED_ERROR
+
+    @property
+    def low(self) -> np.ndarray:
+        """Smallest commands, as deviations from trim, rad and 1; shape (2,)."""
+        return self.lowest - self.trim
+
+    @property
+    def high(self) -> np.ndarray:
+        """Largest commands, likewise."""
+        return self.highest - self.trim
 
     def at(self, level: np.ndarray, trim: np.ndarray) -> Self:
         """The same law about another level flight with these V, gamma, q and delta_e, phi."""
-        return replace(self, level=level, low=LOW - trim, high=HIGH - trim)
+        return replace(self, level=level, trim=trim)
 
     def save(self, path: Path) -> None:
-        """Write the numbers as JSON."""
-        values = {name: np.asarray(value).tolist() for name, value in asdict(self).items()}
-        path.write_text(json.dumps(values), encoding="utf-8")
+        """Write the law as JSON, as a schedule of one design."""
+        save_schedule(path, [self])
 
     @classmethod
     def load(cls, path: Path) -> Law:
-        """Read what `save` wrote."""
-        values = json.loads(path.read_text(encoding="utf-8"))
-        period_s = values.pop("period_s")
-        return cls(period_s, **{name: np.array(value) for name, value in values.items()})
+        """Read the first design that `save` or `save_schedule` wrote."""
+        values = json.loads(path.read_text(encoding="utf-8"))["designs"][0]
+        return cls(**{k: np.array(v) if isinstance(v, list) else v for k, v in values.items()})
+
+
+def save_schedule(path: Path, laws: Iterable[Law]) -> None:
+    """Write designs, one a line, as JSON: `resources/law.json` of the FMU ahv_autopilot."""
+    lines = [
+        json.dumps({k: v.tolist() if isinstance(v, np.ndarray) else v for k, v in values.items()})
+        for values in map(asdict, laws)
+    ]
+    path.write_text('{"designs": [\n' + ",\n".join(lines) + "\n]}\n", encoding="utf-8")
 
 
 @dataclass
@@ -85,11 +108,12 @@ class Autopilot:
         not finite, or no speed at all, is not believed: the model alone carries the estimate on.
         """
         law, known = self.law, (self.estimate, self.command)
+        speed = law.speed_error_m_per_s
         deviation = measured - law.level
         if measured[0] > 0.0 and isfinite(measured.sum()):
             predicted = self._with @ np.concatenate((*known, deviation))
             error = deviation[:2] - wanted
-            error[0] = min(max(error[0], -SPEED_ERROR), SPEED_ERROR)
+            error[0] = min(max(error[0], -speed), speed)
             integral = self.integral + law.period_s * error
         else:
             self.missed += 1
@@ -98,7 +122,7 @@ class Autopilot:
         away = np.concatenate((predicted, integral))
         # V and gamma are the first two states of every design model.
         away[:2] -= wanted
-        away[0] = min(max(away[0], -SPEED_ERROR), SPEED_ERROR)
+        away[0] = min(max(away[0], -speed), speed)
         free = self._feedback @ away
         command = np.minimum(np.maximum(free, law.low), law.high)
         if (command == free).all():

@@ -1,4 +1,4 @@
-//! When two instants are the same.
+//! When two instants are the same: of use to a model that samples.
 
 /// Two instants this close, over the step, are the same: masters add up communication points in
 /// different ways, or pass them on as decimal text.

@@ -73,6 +73,9 @@ pub const fn hash_of_table<M: Model>(about: &About, table: &[Variable<M>]) -> u1
         if let Some([min, max]) = variable.range {
             hash = fnv_bits(fnv_bits(hash, min.to_bits()), max.to_bits());
         }
+        if variable.accepts_non_finite {
+            hash = fnv_text(hash, "also if not finite");
+        }
         if let Some(nominal) = variable.nominal {
             hash = fnv_bits(hash, nominal.to_bits());
         }

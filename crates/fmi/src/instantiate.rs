@@ -3,7 +3,7 @@
 use crate::failure::Failure;
 use crate::identity::guid_of;
 use crate::instance::{Instance, Interface};
-use crate::model::{FromResources, Model};
+use crate::model::{FromResources, Model, Resources};
 use std::path::{Path, PathBuf};
 
 /// What a master passes for a new instance.
@@ -17,8 +17,8 @@ pub struct Request<'a> {
     pub token_argument: &'static str,
     /// GUID or instantiation token of the model description.
     pub token: &'a str,
-    /// Folder of the package's resources, if the master says where; only read for a model with
-    /// [`Model::RESOURCES`] whose token is not that of the built-in data.
+    /// Folder of the package's resources, if the master says where; read as
+    /// [`Model::RESOURCES`] says.
     pub resources: Option<PathBuf>,
     /// Whether debug messages are wanted.
     pub logging_on: bool,
@@ -55,14 +55,20 @@ pub enum NotInstantiated {
         /// Which file and key, the limit, and what to do.
         problem: String,
     },
+    /// The resources cannot be read.
+    #[error("{problem}")]
+    Data {
+        /// Which file and key, the limit, and what to do.
+        problem: String,
+    },
     /// The model has no defaults, or not this interface.
     #[error(transparent)]
     Model(#[from] Failure),
 }
 
 impl<M: Model> Instance<M> {
-    /// `fmi2Instantiate` and its like: the built-in model if the token is its own, else the model of the
-    /// package's resources, if the token is that of their data.
+    /// `fmi2Instantiate` and its like: the built-in model, or that of the package's resources, see
+    /// [`Resources`].
     ///
     /// # Errors
     /// [`NotInstantiated`].
@@ -72,15 +78,18 @@ impl<M: Model> Instance<M> {
             return Err(NotInstantiated::NoName);
         }
         let own = guid_of(M::IDENTITY);
-        if token == own {
-            return Ok(Self::new(interface, request.logging_on)?);
-        }
-        let given = token.to_string();
-        let Some(read) = M::RESOURCES else {
-            return Err(NotInstantiated::Token { argument, given, own });
+        let (given, resources) = (token.to_string(), request.resources.as_deref());
+        let model = match (M::RESOURCES, token == own) {
+            (Resources::Replaceable(read), true) => match resources {
+                Some(folder) => read(folder)
+                    .map_err(|error| NotInstantiated::Data { problem: error.to_string() })?,
+                None => M::new().map_err(Failure::from)?,
+            },
+            (_, true) => M::new().map_err(Failure::from)?,
+            (Resources::Identified(read), false) => from_resources(read, resources, token)
+                .map_err(|problem| NotInstantiated::Resources { argument, given, own, problem })?,
+            (_, false) => return Err(NotInstantiated::Token { argument, given, own }),
         };
-        let model = from_resources(read, request.resources.as_deref(), token)
-            .map_err(|problem| NotInstantiated::Resources { argument, given, own, problem })?;
         Ok(Self::of(model, interface, request.logging_on)?)
     }
 }

@@ -126,7 +126,7 @@
 mod abi;
 #[cfg(feature = "package")]
 pub mod archive;
-mod clock;
+pub mod clock;
 pub mod derivatives;
 #[cfg(feature = "describe")]
 pub mod describe;
@@ -161,6 +161,6 @@ mod variable;
 pub use kinds::{Dependencies, Items, Kind, Unit};
 pub use model::{
     About, Exchange, FromResources, InputDerivatives, InternalStep, Model, ModelError, Remedy,
-    Saving, Simulation, Tangent,
+    Resources, Saving, Simulation, Tangent,
 };
 pub use variable::{Refused, Role, Variable};

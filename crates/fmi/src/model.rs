@@ -87,8 +87,8 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
     /// The same for the same model only: GUID of the FMU and key of saved states. A model with data
     /// continues this hash with the built-in ones, see [`crate::identity::fnv`].
     const IDENTITY: u128 = hash_of_table(&Self::ABOUT, Self::VARIABLES);
-    /// Reads a model with other data than the built-in ones from the resources of its package, a folder.
-    const RESOURCES: Option<FromResources<Self>> = None;
+    /// Where the model's data are.
+    const RESOURCES: Resources<Self> = Resources::None;
     /// Relative tolerance of a master that asks for none.
     const DEFAULT_TOLERANCE: f64 = 1e-6;
     /// Tolerances that the simulation works with. A master's wish is moved into this range: a setup
@@ -126,6 +126,19 @@ pub trait Model: Clone + Debug + PartialEq + 'static {
         _say: &mut dyn FnMut(String),
     ) {
     }
+}
+
+/// Data in the resources of a package.
+#[derive(Debug)]
+pub enum Resources<M: Model> {
+    /// There are none: all is built in.
+    None,
+    /// Read if the token is not that of the built-in data; it must then be that of the data in the folder. For
+    /// data that the model description depends on.
+    Identified(FromResources<M>),
+    /// Read whenever the master says where the resources are: whoever has a package can put other data into
+    /// it. For data that the model description does not depend on.
+    Replaceable(FromResources<M>),
 }
 
 /// Reads a model from a folder.

@@ -128,6 +128,12 @@ fn parameters<M: Model>() -> impl Iterator<Item = &'static Variable<M>> {
     M::VARIABLES.iter().filter(|variable| matches!(variable.role, Role::Parameter { .. }))
 }
 
+/// Whether the input of this number takes NaN and infinities.
+fn input_accepts_any<M: Model>(number: usize) -> bool {
+    let is_input = |variable: &&Variable<M>| matches!(variable.role, Role::Input(i) if i == number);
+    M::VARIABLES.iter().find(is_input).is_some_and(|input| input.accepts_non_finite)
+}
+
 /// Highest order of the derivatives of inputs.
 fn highest<M: Model>() -> usize {
     M::Simulation::INPUT_DERIVATIVES.map_or(0, |moving| moving.highest)
@@ -280,7 +286,10 @@ fn decode<M: Model>(
         let derivatives: Vec<_> = rates.copied().collect();
         numbers.truncate(inputs);
         expect(
-            numbers.iter().all(|value| value.is_finite())
+            numbers
+                .iter()
+                .enumerate()
+                .all(|(i, value)| value.is_finite() || input_accepts_any::<M>(i))
                 && derivatives.iter().all(|rate| rate.abs() <= LARGEST),
             NOT_OURS,
         )?;

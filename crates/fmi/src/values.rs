@@ -167,7 +167,8 @@ impl<M: Model> Instance<M> {
         }
         let value = self.value(variable)?;
         let refused = Failure::NotFinite { variable: variable.name, value };
-        value.is_finite().then_some(value).ok_or(refused)
+        let shown = value.is_finite() || variable.accepts_non_finite;
+        shown.then_some(value).ok_or(refused)
     }
 
     /// Present value. What was set needs no simulation.

@@ -56,6 +56,8 @@ pub struct Variable<M: Model> {
     pub nominal: Option<f64>,
     /// Dependencies of outputs and derivatives.
     pub dependencies: Dependencies,
+    /// Whether it takes and shows NaN and infinities: a measurement that failed is one.
+    pub accepts_non_finite: bool,
     /// The items of an enumeration that a model has, if its data leave some out.
     pub items: Option<fn(&M) -> Items>,
 }
@@ -76,8 +78,18 @@ impl<M: Model> Variable<M> {
         dependencies: Dependencies,
     ) -> Self {
         let kind = Kind::Real(unit);
-        let (range, nominal, items) = (None, None, None);
-        Self { name, description, kind, role, range, nominal, dependencies, items }
+        let (range, nominal, items, accepts_non_finite) = (None, None, None, false);
+        Self {
+            name,
+            description,
+            kind,
+            role,
+            range,
+            nominal,
+            dependencies,
+            accepts_non_finite,
+            items,
+        }
     }
 
     /// The input of this number; it starts at zero.
@@ -168,6 +180,11 @@ impl<M: Model> Variable<M> {
         Self { range: Some(range), ..self }
     }
 
+    /// The input or output, also if it is NaN or infinite: the model knows what to do then.
+    pub const fn accepting_non_finite(self) -> Self {
+        Self { accepts_non_finite: true, ..self }
+    }
+
     /// The state with a typical size.
     pub const fn with_nominal(self, nominal: f64) -> Self {
         Self { nominal: Some(nominal), ..self }
@@ -230,7 +247,7 @@ impl<M: Model> Variable<M> {
                     .into(),
             );
         }
-        if !value.is_finite() {
+        if !(value.is_finite() || self.accepts_non_finite) {
             return refuse("a finite number is needed".into());
         }
         if let Some([min, max]) = self.range

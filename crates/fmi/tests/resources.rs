@@ -5,9 +5,7 @@ use fmi_model::failure::Failure;
 use fmi_model::identity::{fnv, guid_of, hash_of_table};
 use fmi_model::instance::{Instance, Interface};
 use fmi_model::instantiate::{NotInstantiated, Request};
-use fmi_model::{
-    About, FromResources, Kind, Model, ModelError, Refused, Saving, Simulation, Variable,
-};
+use fmi_model::{About, Kind, Model, ModelError, Refused, Resources, Saving, Simulation, Variable};
 use std::path::{Path, PathBuf};
 
 /// A model that names one of two letters, or of three, if its package has a file `third`.
@@ -41,7 +39,7 @@ impl Model for Letters {
         |letters, value| letters.letter = value,
     )
     .with_items(|letters| &LETTERS[..2 + usize::from(letters.third)])];
-    const RESOURCES: Option<FromResources<Self>> = Some(|folder| match folder.join("third") {
+    const RESOURCES: Resources<Self> = Resources::Identified(|folder| match folder.join("third") {
         file if file.is_file() => Ok(Self { third: true, letter: 3.0 }),
         _ => Err(Unreadable("there is no file third")),
     });

@@ -16,6 +16,7 @@ import coupling
 import design
 import flight
 from harness import Package
+from law import HIGH
 from masters import NAMES, MasterFailed, fly_libcosim
 from system import BadSystem, build, validate
 
@@ -113,7 +114,7 @@ def test_an_autopilot_at_its_stops_does_not_wind_up(package: Package, tmp_path: 
     assert run.returncode == 0, run.stderr
     rows = np.genfromtxt(tmp_path / "libcosim.csv", delimiter=",", names=True)
     assert rows["autopilotsaturated"][-1] > 0
-    assert rows["vehiclephi_effective"].max() == pytest.approx(design.HIGH[1], rel=1e-12)
+    assert rows["vehiclephi_effective"].max() == pytest.approx(HIGH[1], rel=1e-12)
     assert 0.0 < rows["vehicleV"][-1] - rows["vehicleV"][0] < 1.2 * 90.0
     assert np.abs(rows["vehiclegamma"]).max() < 5.0 * design.DEG
 

@@ -1,0 +1,158 @@
+//! The running law: what it remembers, and one sample.
+
+use crate::gains::{FEEDBACK_COLUMNS, Gains, place};
+use crate::law::{COMMANDS, Design, MEASURED, MOST_STATES, WANTED};
+
+/// A measurement beyond this is not believed, in m/s, rad, rad/s: what is made of it does not overflow.
+const LARGEST: f64 = 1e9;
+
+/// What the law remembers from sample to sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Memory {
+    /// Estimate of the states at the last sample plus a period, as deviations from trim.
+    pub estimate: [f64; MOST_STATES],
+    /// Integrals of the errors of V (m) and gamma (rad s).
+    pub integrals: [f64; WANTED],
+    /// Command that acts from the next sample on.
+    pub command: [f64; COMMANDS],
+    /// Measurements that were not believed.
+    pub missed: f64,
+    /// Samples with a command at its limit.
+    pub saturated: f64,
+}
+
+impl Memory {
+    /// Level flight.
+    pub const LEVEL: Self = Self {
+        estimate: [0.0; MOST_STATES],
+        integrals: [0.0; WANTED],
+        command: [0.0; COMMANDS],
+        missed: 0.0,
+        saturated: 0.0,
+    };
+}
+
+/// The law about one level flight.
+#[derive(Debug, Clone)]
+pub struct Pilot {
+    /// Designs by growing fuel.
+    designs: Vec<Design>,
+    /// Gains in force.
+    gains: Gains,
+    /// Fuel that they are for, kg/m.
+    fuel_mass_kg_per_m: f64,
+    level: [f64; MEASURED],
+    /// Limits of the commands as deviations from trim.
+    low: [f64; COMMANDS],
+    high: [f64; COMMANDS],
+    speed_error: f64,
+}
+
+impl Pilot {
+    /// The law for this fuel about a level flight with these measurements and limits.
+    pub fn new(
+        designs: &[Design],
+        fuel_mass_kg_per_m: f64,
+        level: [f64; MEASURED],
+        [low, high]: [[f64; COMMANDS]; 2],
+    ) -> Self {
+        Self {
+            designs: designs.to_vec(),
+            gains: scheduled(designs, fuel_mass_kg_per_m),
+            fuel_mass_kg_per_m,
+            level,
+            low,
+            high,
+            speed_error: designs[0].speed_error_m_per_s,
+        }
+    }
+
+    /// Moves the gains to a measured fuel; one that is no mass is not believed.
+    pub fn schedule(&mut self, fuel_mass_kg_per_m: f64) {
+        if fuel_mass_kg_per_m > 0.0 && fuel_mass_kg_per_m <= LARGEST {
+            self.move_to(fuel_mass_kg_per_m);
+        }
+    }
+
+    /// Moves the gains to a fuel, kg/m.
+    pub fn move_to(&mut self, fuel_mass_kg_per_m: f64) {
+        if fuel_mass_kg_per_m != self.fuel_mass_kg_per_m {
+            self.fuel_mass_kg_per_m = fuel_mass_kg_per_m;
+            self.gains = scheduled(&self.designs, fuel_mass_kg_per_m);
+        }
+    }
+
+    /// Fuel that the gains are for, kg/m.
+    pub fn fuel_mass_kg_per_m(&self) -> f64 {
+        self.fuel_mass_kg_per_m
+    }
+
+    /// Whether a measurement is believed: there is a speed, and nothing is NaN or beyond any flight.
+    pub fn believes(measured: &[f64; MEASURED]) -> bool {
+        measured[0] > 0.0 && measured.iter().all(|value| value.abs() <= LARGEST)
+    }
+
+    /// One sample: the command for the next one from what is measured now. A filter in predictor form knows
+    /// that a command acts a period later.
+    ///
+    /// A measurement that is not believed leaves the estimate to the model alone. While a command is at its
+    /// limit the integrals are held.
+    pub fn sample(&self, memory: &mut Memory, measured: &[f64; MEASURED], wanted: [f64; WANTED]) {
+        let deviation: [f64; MEASURED] = std::array::from_fn(|i| measured[i] - self.level[i]);
+        let known = memory.estimate.iter().chain(&memory.command);
+        let mut integrals = memory.integrals;
+        let mut estimate = [0.0; MOST_STATES];
+        if Self::believes(measured) {
+            add_products(&mut estimate, &self.gains.filter, known.chain(&deviation));
+            for (i, integral) in integrals.iter_mut().enumerate() {
+                *integral += self.designs[0].period_s * self.limited(i, deviation[i] - wanted[i]);
+            }
+        } else {
+            memory.missed += 1.0;
+            add_products(&mut estimate, &self.gains.model, known);
+        }
+        let mut away = [0.0; FEEDBACK_COLUMNS];
+        away[..MOST_STATES].copy_from_slice(&estimate);
+        for (i, wanted) in wanted.into_iter().enumerate() {
+            away[i] = self.limited(i, estimate[i] - wanted);
+        }
+        away[MOST_STATES..].copy_from_slice(&integrals);
+        let mut feedback = [0.0; COMMANDS];
+        add_products(&mut feedback, &self.gains.feedback, &away);
+        let free = feedback.map(|value| -value);
+        let command = std::array::from_fn(|i| free[i].max(self.low[i]).min(self.high[i]));
+        if command == free {
+            memory.integrals = integrals;
+        } else {
+            memory.saturated += 1.0;
+        }
+        (memory.estimate, memory.command) = (estimate, command);
+    }
+
+    /// An error of V (0), which is limited, or gamma.
+    fn limited(&self, which: usize, error: f64) -> f64 {
+        if which == 0 { error.max(-self.speed_error).min(self.speed_error) } else { error }
+    }
+}
+
+/// sum += matrix factors, column by column.
+fn add_products<'a, const ROWS: usize>(
+    sum: &mut [f64; ROWS],
+    columns: &[[f64; ROWS]],
+    factors: impl IntoIterator<Item = &'a f64>,
+) {
+    for (column, factor) in columns.iter().zip(factors) {
+        for (sum, value) in sum.iter_mut().zip(column) {
+            *sum += value * factor;
+        }
+    }
+}
+
+/// Gains for a fuel.
+fn scheduled(designs: &[Design], fuel_mass_kg_per_m: f64) -> Gains {
+    let mass = |design: &Design| design.fuel_mass_kg_per_m;
+    let (before, next, part) = place(designs, mass, fuel_mass_kg_per_m);
+    let mut gains = before.gains.clone();
+    gains.move_to(&next.gains, part);
+    gains
+}
