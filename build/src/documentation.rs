@@ -5,7 +5,7 @@ use ahv::flight::{Flight, Setup};
 use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
 use fmi_model::standard::Standard;
-use fmi_model::{Kind, Model, Role, Variable, identity::guid_of};
+use fmi_model::{Kind, Model, Role, Variable, identity::guid_in_package};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
@@ -119,7 +119,7 @@ pub fn html(setup: &Setup, standard: Standard, machines: &[String]) -> Result<St
     let data = if setup.data().own_files.is_empty() { BUILT_IN } else { OWN };
     let limits = limits(&setup.fly()?);
     let changes = changes()?;
-    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid_of(setup.identity()));
+    let (version, guid) = (env!("CARGO_PKG_VERSION"), guid_in_package(setup));
     let fmi = match standard {
         Standard::Fmi2 => "2.0",
         Standard::Fmi3 => "3.0",

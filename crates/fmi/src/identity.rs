@@ -1,7 +1,7 @@
 //! The identity of a model.
 
 use crate::kinds::Kind;
-use crate::model::{About, Model};
+use crate::model::{About, Model, Resources};
 use crate::variable::{Role, Variable};
 
 /// Of the 128-bit hash of Fowler, Noll and Vo.
@@ -87,6 +87,14 @@ pub const fn hash_of_table<M: Model>(about: &About, table: &[Variable<M>]) -> u1
 /// GUID of the FMU with the built-in data.
 pub fn guid<M: Model>() -> String {
     guid_of(M::IDENTITY)
+}
+
+/// GUID of the FMU of a model: its data count unless they can be replaced within the package.
+pub fn guid_in_package<M: Model>(model: &M) -> String {
+    guid_of(match M::RESOURCES {
+        Resources::Replaceable(_) => M::IDENTITY,
+        Resources::None | Resources::Identified(_) => model.identity(),
+    })
 }
 
 /// A model's identity as GUID (FMI 2.0) and instantiation token (FMI 3.0): in braces, grouped as usual.

@@ -1,9 +1,11 @@
 //! A model whose data can be replaced in its package, and inputs that need not be numbers.
 #![allow(missing_docs)]
 
+use fmi_model::describe::model_description_of;
 use fmi_model::identity::{fnv, guid_of};
 use fmi_model::instance::{Instance, Interface};
 use fmi_model::instantiate::{NotInstantiated, Request};
+use fmi_model::standard::Standard;
 use fmi_model::{
     About, Dependencies, Model, ModelError, Resources, Saving, Simulation, Unit, Variable,
 };
@@ -189,5 +191,13 @@ fn an_input_that_says_so_takes_shows_and_saves_what_is_no_number() {
             instance.set_state(&state).unwrap();
             assert_eq!(instance.state().unwrap().encode().unwrap(), bytes);
         }
+    }
+}
+
+#[test]
+fn the_token_of_the_package_is_that_of_the_table_whatever_the_data() {
+    for factor in [1.0, 3.0] {
+        let described = model_description_of(&Gain { factor }, Standard::Fmi2).unwrap();
+        assert!(described.contains(&token()), "{described}");
     }
 }

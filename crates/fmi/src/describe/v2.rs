@@ -6,7 +6,7 @@ use super::{
 };
 use crate::derivatives::OUTPUT_ORDER;
 use crate::exchange::EVENT_INDICATORS;
-use crate::identity::guid_of;
+use crate::identity::guid_in_package;
 use crate::kinds::Kind;
 use crate::model::{Model, Simulation};
 use crate::standard::Standard;
@@ -21,7 +21,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
     let root = [
         ("fmiVersion", "2.0".to_string()),
         ("modelName", about.identifier.to_string()),
-        ("guid", guid_of(model.identity())),
+        ("guid", guid_in_package(model)),
         ("description", model.description()),
         ("author", about.author.to_string()),
         ("version", about.version.to_string()),

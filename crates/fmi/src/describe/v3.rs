@@ -5,7 +5,7 @@ use super::{
     Xml, categories_and_experiment, items, real_type, role, types, unit_definitions, units,
 };
 use crate::derivatives::OUTPUT_ORDER;
-use crate::identity::guid_of;
+use crate::identity::guid_in_package;
 use crate::kinds::{Kind, Unit};
 use crate::model::{Model, Simulation};
 use crate::standard::Standard;
@@ -21,7 +21,7 @@ pub fn written<M: Model>(model: &M) -> io::Result<String> {
     let root = [
         ("fmiVersion", "3.0".to_string()),
         ("modelName", about.identifier.to_string()),
-        ("instantiationToken", guid_of(model.identity())),
+        ("instantiationToken", guid_in_package(model)),
         ("description", model.description()),
         ("author", about.author.to_string()),
         ("version", about.version.to_string()),
