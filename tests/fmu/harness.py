@@ -113,9 +113,10 @@ class Package:
         return flight
 
 
-def packaged(folder: Path) -> Package:
-    """The FMU under test (AHV_FMU, by default target/ahv.fmu), unzipped to `folder`."""
+def packaged(folder: Path, model: str = "ahv") -> Package:
+    """The FMU under test (AHV_FMU, by default target/ahv.fmu), or one beside it, in `folder`."""
     path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")).resolve()
+    path = path.with_name(path.name.replace("ahv", model, 1))
     if not path.is_file():
         pytest.fail(f"{path} does not exist: run `cargo ahv package` or set AHV_FMU", pytrace=False)
     extract(str(path), unzipdir=str(folder))
