@@ -195,7 +195,7 @@ def test_own_gains_are_designed_packaged_and_flown(
         archive.extractall(tmp_path / "own")
     own = Package(output, tmp_path / "own")
     for period_s in (0.01, 0.02):
-        with package.flight(gamma_offset=0.002) as vehicle, own.flight(period=period_s) as pilot:
+        with package.flight(alpha_offset=0.002) as vehicle, own.flight(period=period_s) as pilot:
             assert pilot["sampling_period"] == period_s
             loop(vehicle, pilot, 20.0, MEASURED)
             assert abs(vehicle["gamma"]) < 2e-4
