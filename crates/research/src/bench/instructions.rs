@@ -9,9 +9,10 @@ use crate::methods::Law;
 use ahv_tool::cli::Set;
 use ahv_tool::trim::flight;
 use ahv_tool::workspace::works;
-use ahv_tool::workspace::{MAX_TEXT_BYTES, read_text, target};
+use ahv_tool::workspace::{MAX_TEXT_BYTES, cargo, read_text, root, target};
 use anyhow::{Context, Result, bail};
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Calls of a probe; a run with twice as many gives their cost without start-up.
@@ -46,13 +47,14 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
     Ok(())
 }
 
-fn count(probe: &str, calls: usize) -> Result<f64> {
+/// Instructions of a program with these arguments.
+fn count(program: &Path, arguments: &[&str]) -> Result<f64> {
     let file = target().join("bench/callgrind.out");
     let output = Command::new("valgrind")
         .arg("--tool=callgrind")
         .arg(format!("--callgrind-out-file={}", file.display()))
-        .arg(std::env::current_exe()?)
-        .args(["bench", "--probe", probe, "--calls", &calls.to_string()])
+        .arg(program)
+        .args(arguments)
         .output()?;
     if !output.status.success() {
         bail!("valgrind: {}", String::from_utf8_lossy(&output.stderr));
@@ -62,18 +64,48 @@ fn count(probe: &str, calls: usize) -> Result<f64> {
     Ok(total.context("callgrind wrote no totals")?.trim().parse()?)
 }
 
+/// Instructions of one call: `run` counts those of a run with this many.
+fn per_call(run: impl Fn(&str) -> Result<f64>) -> Result<Spread> {
+    let of = |calls: usize| run(&calls.to_string());
+    Ok(Spread::exact(((of(2 * CALLS)? - of(CALLS)?) / CALLS as f64).round()))
+}
+
+/// A program that takes samples of the autopilot: its library has the functions of the vehicle's, so that no
+/// program can have both.
+fn sampler() -> Result<PathBuf> {
+    let mut build = cargo();
+    build.args([
+        "build",
+        "--quiet",
+        "--release",
+        "--package",
+        "ahv-autopilot",
+        "--example",
+        "samples",
+    ]);
+    build.arg("--manifest-path").arg(root().join("Cargo.toml"));
+    if !build.status()?.success() {
+        bail!("the autopilot does not compile: see the messages above");
+    }
+    Ok(target().join("release/examples/samples"))
+}
+
 pub fn measure(_: &Effort, report: &mut Report) -> Result<()> {
     if !works("valgrind", &["--version"]) {
         bail!("valgrind is not installed; on Debian: apt-get install valgrind libc6-dbg");
     }
     std::fs::create_dir_all(target().join("bench"))?;
+    let own = std::env::current_exe()?;
     for (probe, what, aim) in [
         ("rates", "right-hand side", "aim 750"),
         ("outputs", "right-hand side and all outputs", "sensors included"),
         ("steps", "step of 10 ms at 1e-8, in a doublet", "aim 8,000"),
     ] {
-        let instructions = (count(probe, 2 * CALLS)? - count(probe, CALLS)?) / CALLS as f64;
-        report.line(what, Spread::exact(instructions.round()), "instructions", aim);
+        let probe = |calls: &str| count(&own, &["bench", "--probe", probe, "--calls", calls]);
+        report.line(what, per_call(probe)?, "instructions", aim);
     }
+    let sampler = sampler()?;
+    let sample = per_call(|calls| count(&sampler, &[calls]))?;
+    report.line("autopilot, step of 10 ms", sample, "instructions", "inputs and outputs included");
     Ok(())
 }
