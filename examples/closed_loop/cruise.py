@@ -19,6 +19,7 @@ try:
 
     import design
     from flight import Flight, Vehicle, fly
+    from margins import margins
     from sloshing import cell
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -137,7 +138,7 @@ def main() -> None:
     law = design.design(design.model(folder, fuel_fraction=options.fuel))
     for when, fuel in (("start", options.fuel), ("end", found.fuel_fraction)):
         full = design.model(folder, fuel_fraction=fuel)
-        m = design.margins(design.sampled(full, design.STATES[design.SLOSH]), law)
+        m = margins(design.sampled(full, design.STATES[design.SLOSH]), law)
         print(f"margins at the {when}: {cell(m._asdict())}")
     if found.flight.ended:
         sys.exit(f"error: after t = {flown['time'][-1]:.2f} s: {found.flight.ended}")

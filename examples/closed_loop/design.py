@@ -1,4 +1,4 @@
-"""Design of the autopilot and margins of the loop, with python-control.
+"""Design of the autopilot, with python-control.
 
 As a program: gains scheduled over fuel, as `law.json` or in a copy of the FMU ahv_autopilot.
 """
@@ -12,7 +12,6 @@ import zipfile
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import NamedTuple
 
 import control as ct
 import numpy as np
@@ -21,7 +20,7 @@ from fmpy import extract
 HERE = Path(__file__).resolve().parent
 # The package of this repository, unless it is installed.
 sys.path.append(str(HERE.parents[1] / "python/src"))
-from ahv import LinearModel, linear_model
+from ahv import Linearizer, LinearModel
 from law import PERIOD_S, Law, save_schedule
 
 MEASURED = ("V", "gamma", "q")
@@ -55,13 +54,21 @@ FUELS = [
 LAW = "resources/law.json"
 
 
-def model(folder: str, **parameters: float) -> LinearModel:
-    """Linear model of the FMU unzipped in `folder`, with the measurements of the autopilot.
+def linearizer(folder: str | Path) -> Linearizer:
+    """For the models of many vehicles, of the FMU unzipped in `folder`."""
+    return Linearizer(folder, (*MEASURED, *SLOSHING))
+
+
+def model(fmu: str | Path | Linearizer, **parameters: float) -> LinearModel:
+    """Linear model of the FMU unzipped in a folder, with the measurements of the autopilot.
 
     With the displacements of the liquid in place of the slosh modes: where their frequencies cross,
     the modes change places, and gains between two levels of fuel could not be interpolated.
     """
-    full = linear_model(folder, (*MEASURED, *SLOSHING), **parameters)
+    if not isinstance(fmu, Linearizer):
+        with linearizer(fmu) as opened:
+            return model(opened, **parameters)
+    full = fmu.model(**parameters)
     liquid, measured = full.C[len(MEASURED) :], full.C[: len(MEASURED)]
     old = [full.states.index(f"eta_{slosh}") for slosh in SLOSHING]
     names = [name.removeprefix("eta_") if "slosh" in name else name for name in full.states]
@@ -132,79 +139,6 @@ def design(
         trim=np.array([trim["delta_e_trim"], trim["phi_trim"]]),
         fuel_mass_kg_per_m=trim["fuel_mass"],
     )
-
-
-def linear(law: Law) -> ct.StateSpace:
-    """The law from V, gamma, q to delta_e, phi, about level flight and within the limits."""
-    n = len(law.A)
-    a = np.block(
-        [
-            [law.A - law.B @ law.K - law.L @ law.C, -law.B @ law.Ki],
-            [np.zeros((2, n)), np.eye(2)],
-        ]
-    )
-    b = np.vstack([law.L, law.period_s * np.eye(3)[:2]])
-    c = -np.hstack([law.K, law.Ki])
-    return ct.ss(a, b, c, np.zeros((2, 3)), law.period_s)
-
-
-def poles(plant: ct.StateSpace, law: Law, gain: np.ndarray | None = None) -> np.ndarray:
-    """Poles of the closed loop, rad/s; commands multiplied by `gain`, shape (2,)."""
-    pilot = linear(law)
-    into = plant.B @ np.diag(np.ones(2) if gain is None else gain) @ pilot.C
-    closed = np.block([[plant.A, into], [pilot.B @ plant.C, pilot.A]])
-    return np.log(np.linalg.eigvals(closed).astype(complex)) / law.period_s
-
-
-class Margins(NamedTuple):
-    """Margins of the loop broken at one actuator, with the other loop closed.
-
-    `gain_down_db`, `gain_up_db`: the loop gain may change by so much; `phase_deg`; `distance`:
-    least distance of the Nyquist curve from -1. All are NaN if the loop is unstable.
-    `growth_per_s`: real part of the rightmost pole; `least_damping` of the poles that swing.
-    """
-
-    gain_down_db: float
-    gain_up_db: float
-    phase_deg: float
-    distance: float
-    growth_per_s: float
-    least_damping: float
-
-
-def margins(plant: ct.StateSpace, law: Law, actuator: int = 0, points: int = 2000) -> Margins:
-    """Margins at delta_e (0) or phi (1) from `points` frequencies, and more near the modes."""
-    ends = poles(plant, law)
-    swing = ends[np.abs(ends.imag) > 0.5]
-    growth, damping = ends.real.max(), min(-swing.real / np.abs(swing), default=1.0)
-    if growth >= 0.0:
-        return Margins(*[np.nan] * 4, growth, damping)
-    # Dense near lightly damped modes; up to half the sampling rate.
-    own = np.abs(poles(plant, law).imag)
-    near = (own[own > 1.0, None] * np.linspace(0.9, 1.1, points // 50 * 2 + 1)).ravel()
-    rates = np.unique(np.concatenate([np.geomspace(1e-3, np.pi / PERIOD_S, points), near]))
-    rates = rates[rates < 0.999 * np.pi / PERIOD_S]
-    z = np.exp(1j * rates * PERIOD_S)
-    loop = -response(linear(law), z) @ response(plant, z)
-    i, o = actuator, 1 - actuator
-    broken = loop[:, i, i] - loop[:, i, o] * loop[:, o, i] / (1 + loop[:, o, o])
-    magnitude, phase = np.abs(broken), np.degrees(np.unwrap(np.angle(broken)))
-    gains, phases, *_ = ct.stability_margins((magnitude, phase, rates), returnall=True)
-    decibels = 20 * np.log10(np.asarray(gains))
-    return Margins(
-        max(decibels[decibels < 0], default=-np.inf),
-        min(decibels[decibels > 0], default=np.inf),
-        min(np.abs(phases), default=np.inf),
-        np.abs(1 + broken).min(),
-        growth,
-        damping,
-    )
-
-
-def response(system: ct.StateSpace, z: np.ndarray) -> np.ndarray:
-    """Frequency response at the points z, shape (points, outputs, inputs)."""
-    shifted = z[:, None, None] * np.eye(len(system.A)) - system.A
-    return system.C @ np.linalg.solve(shifted, np.broadcast_to(system.B, (len(z), *system.B.shape)))
 
 
 def schedule(folder: str, fuels: Sequence[float], period_s: float = PERIOD_S) -> list[Law]:

@@ -12,6 +12,7 @@ try:
     from fmpy import extract
 
     import design
+    from margins import margins
     from masters import NAMES, MasterFailed, fly_fmpy, fly_libcosim
     from system import BadSystem, build
 except ModuleNotFoundError as missing:
@@ -78,7 +79,7 @@ def main() -> None:
     full = design.model(extract(str(options.fmu)))
     law = design.design(full)
     for actuator, name in enumerate(full.inputs):
-        m = design.margins(design.sampled(full, design.STATES[design.SLOSH]), law, actuator)
+        m = margins(design.sampled(full, design.STATES[design.SLOSH]), law, actuator)
         print(
             f"{name:8} gain {m.gain_down_db:+.1f} to {m.gain_up_db:+.1f} dB, "
             f"phase {m.phase_deg:.0f} deg, distance from -1 {m.distance:.2f}"

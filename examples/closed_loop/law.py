@@ -1,6 +1,6 @@
 """The control law: a Kalman filter, state feedback and two integrators, in numpy.
 
-Used by the FMU (autopilot.py), the margins (design.py) and the ensemble.
+Used by the FMU (autopilot.py), the margins (margins.py) and the ensemble.
 """
 
 from __future__ import annotations

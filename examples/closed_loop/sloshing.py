@@ -18,6 +18,7 @@ try:
 
     import design
     from flight import Flight, fly, wanted
+    from margins import margins
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -58,8 +59,8 @@ def study(folder: str, points: int | None = None) -> list[dict[str, float | str]
             full = design.model(folder, **parameters)
             plant = design.sampled(full, design.STATES[design.SLOSH])
             for name, law in zip(LAWS, [*nominal, design.design(full)], strict=True):
-                margins = design.margins(plant, law)._asdict()
-                rows.append({"sweep": sweep, "value": value, "law": name} | margins)
+                row = {"sweep": sweep, "value": value, "law": name}
+                rows.append(row | margins(plant, law)._asdict())
     return rows
 
 

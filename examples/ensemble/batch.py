@@ -13,16 +13,15 @@ import numpy as np
 import design
 import flight
 from law import Law
+from margins import Margins, margins
 
 # What a flight adds to the parameters that vary; missing where there is no flight.
-MARGINS = design.Margins._fields
+MARGINS = Margins._fields
 NUMBERS = ("saturated_steps", "delta_e_trim", "slosh_largest_m", "n_z_largest")
 HISTORIES = ("V_m_per_s", "gamma_rad")
 NOTHING = dict.fromkeys((*MARGINS, *NUMBERS, *HISTORIES))
 OUTPUTS = ("slosh1", "slosh2", "n_z")
 SAMPLE_EVERY = 50  # steps between the kept points of a flight
-# Frequencies of a margin: finds them within 0.01 dB and 0.01 deg of four times as many.
-POINTS = 250
 
 
 class Task(NamedTuple):
@@ -61,11 +60,11 @@ def fly_one(
         return vehicle | NOTHING | {"trimmed": False, "ended": str(refused), "flown_s": 0.0}
     full = design.model(folder, **parameters)
     plant = design.sampled(full, design.STATES[design.SLOSH])
-    margins = design.margins(plant, law, points=POINTS)
+    found = margins(plant, law)
     rows = flown.rows
     return (
         vehicle
-        | {name: float(value) for name, value in margins._asdict().items()}
+        | {name: float(value) for name, value in found._asdict().items()}
         | {
             "trimmed": True,
             "ended": flown.ended,

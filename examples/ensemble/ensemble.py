@@ -43,7 +43,7 @@ except ModuleNotFoundError as missing:
 # Files that every worker imports.
 MODULES = [
     HERE / "batch.py",
-    *(LOOP / f"{name}.py" for name in ("design", "flight", "law")),
+    *(LOOP / f"{name}.py" for name in ("design", "flight", "law", "margins")),
     *sorted(Path(ahv.__file__).parent.glob("*.py")),
 ]
 # Varied parameters of the FMU with their limits; uniform, slosh_damping in its logarithm.

@@ -17,6 +17,7 @@ import pytest
 import design
 import law
 from harness import Instance, Package, Refused, packaged
+from margins import margins
 
 MEASURED, COMMANDS = ("V", "gamma", "q"), ("delta_e", "phi")
 # Sums of twenty products in another order, in a loop that amplifies rounding.
@@ -86,8 +87,8 @@ def test_gains_between_designs_keep_two_thirds_of_the_distance(
             name: 0.5 * (getattr(before, name) + getattr(after, name))
             for name in ("A", "B", "C", "K", "Ki", "L")
         }
-        between = design.margins(plant, replace(own, **middle))
-        assert between.distance > 0.66 * design.margins(plant, own).distance, fuel
+        between = margins(plant, replace(own, **middle))
+        assert between.distance > 0.66 * margins(plant, own).distance, fuel
 
 
 def loop(vehicle: Instance, pilot: Instance, stop_s: float, measured: tuple[str, ...]) -> float:

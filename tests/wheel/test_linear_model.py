@@ -99,3 +99,20 @@ def test_versions_and_templates_that_do_not_exist_are_refused() -> None:
         ahv.fmu("1.0")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match='"vehicle" or "coefficients" is expected'):
         ahv.template("engine")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("version", ["2.0", "3.0"])
+def test_one_instance_gives_the_models_of_many(version: str) -> None:
+    """Nothing is left of the vehicle before, nor of one that was refused."""
+    fmu, outputs = ahv.fmu(version), ("V", "n_z")  # type: ignore[arg-type]
+    cases: list[dict[str, float | str]] = [{"mach0": 9.0}, {"aero": "parker2007"}, {}]
+    with ahv.Linearizer(fmu, outputs) as linearizer:
+        for case in cases:
+            mine, alone = linearizer.model(**case), ahv.linear_model(fmu, outputs, **case)
+            for name in "ABCD":
+                assert np.array_equal(getattr(mine, name), getattr(alone, name)), name
+            assert mine.trim == alone.trim
+            with pytest.raises(ahv.FMUError, match="no trim"):
+                linearizer.model(mach0=9.0, elevator_factor=0.5, fuel_fraction=1.0)
+            with pytest.raises(ValueError, match="there is no parameter `mach`"):
+                linearizer.model(fuel_fraction=0.5, mach=9.0)

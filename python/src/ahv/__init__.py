@@ -2,7 +2,7 @@
 
 from ahv._columns import ManoeuvreError
 from ahv._instance import FMUError
-from ahv._linear_model import LinearModel, linear_model
+from ahv._linear_model import Linearizer, LinearModel, linear_model
 from ahv._manoeuvre import manoeuvre
 from ahv._package import fmu, template
 from ahv._vehicle import VehicleError, vehicle
@@ -10,6 +10,7 @@ from ahv._vehicle import VehicleError, vehicle
 __all__ = [
     "FMUError",
     "LinearModel",
+    "Linearizer",
     "ManoeuvreError",
     "VehicleError",
     "fmu",

@@ -35,6 +35,7 @@ class Instance:
     def __init__(self, folder: Path, token: str | None = None) -> None:
         self.description = read_model_description(str(folder))
         self.variables = {v.name: v for v in self.description.modelVariables}
+        self._parameters = [n for n, v in self.variables.items() if v.causality == "parameter"]
         self._is_fmi3 = self.description.fmiVersion.startswith("3")
         self._refusals: list[str] = []
         if self.description.coSimulation is None:
@@ -110,9 +111,8 @@ class Instance:
 
     def set_parameter(self, name: str, value: float | bool | str) -> None:
         """Set a parameter; an enumeration by name or number."""
-        parameters = [v.name for v in self.variables.values() if v.causality == "parameter"]
-        if name not in parameters:
-            raise ValueError(f"there is no parameter `{name}`; {suggest(name, parameters)}")
+        if name not in self._parameters:
+            raise ValueError(f"there is no parameter `{name}`; {suggest(name, self._parameters)}")
         number = self._number(name, value)
         self._call(f"set{self._access(name)}", self.references([name]), [number])
 
@@ -138,6 +138,11 @@ class Instance:
         """Value of a variable of any type."""
         (value,) = self._call(f"get{self._access(name)}", self.references([name]))
         return value  # type: ignore[no-any-return]
+
+    def reset(self) -> None:
+        """Back to the start values of all variables, as if the instance were new."""
+        self._refusals.clear()
+        self._call("reset")
 
     def initialise(self) -> None:
         """Trim the vehicle with the parameters that were set."""
