@@ -41,6 +41,9 @@ fn units<M: Model>(others: &[Unit]) -> Vec<Unit> {
     let mut units = others.to_vec();
     for variable in M::VARIABLES {
         let Kind::Real(unit) = variable.kind else { continue };
+        if !unit.is_declared() {
+            continue;
+        }
         match units.iter_mut().find(|known| known.name == unit.name) {
             Some(known) => {
                 known.display = known.display.or(unit.display);

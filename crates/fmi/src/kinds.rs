@@ -17,10 +17,17 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// None is declared: the variable takes the unit of what it is connected to.
+    pub const NONE: &Self = &Self::new("", None, [0; 4]);
     /// The unit of pure numbers.
     pub const ONE: &Self = &Self::new("1", None, [0; 4]);
     /// Seconds.
     pub const SECOND: &Self = &Self::new("s", Some("Time"), [0, 0, 1, 0]);
+
+    /// Whether it is one that the XML names.
+    pub const fn is_declared(&self) -> bool {
+        !self.name.is_empty()
+    }
 
     /// A unit that is shown as it is.
     pub const fn new(name: &'static str, quantity: Option<&'static str>, base: [i32; 4]) -> Self {

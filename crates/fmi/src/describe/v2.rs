@@ -118,7 +118,7 @@ fn scalar_variable<M: Model>(
             Kind::Real(unit) => {
                 let mut attributes = Vec::new();
                 attributes.extend(unit.quantity.map(|name| ("declaredType", name.to_string())));
-                attributes.push(("unit", unit.name.to_string()));
+                attributes.extend(unit.is_declared().then(|| ("unit", unit.name.to_string())));
                 attributes.extend(unit.display.map(|(name, _)| ("displayUnit", name.to_string())));
                 attributes.extend(range);
                 attributes.extend(variable.nominal.map(|value| ("nominal", value.to_string())));

@@ -134,7 +134,7 @@ fn write_variable<M: Model>(
     let element = match variable.kind {
         Kind::Real(unit) => {
             attributes.extend(unit.quantity.map(|name| ("declaredType", name.to_string())));
-            attributes.push(("unit", unit.name.to_string()));
+            attributes.extend(unit.is_declared().then(|| ("unit", unit.name.to_string())));
             attributes.extend(unit.display.map(|(name, _)| ("displayUnit", name.to_string())));
             attributes.extend(range(variable));
             attributes.extend(variable.nominal.map(|value| ("nominal", value.to_string())));
