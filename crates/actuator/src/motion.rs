@@ -72,8 +72,9 @@ impl Actuator {
                 lead > rounding || (lead >= -rounding && slope >= 0.0)
             };
             let size = value.abs() + position.abs();
-            if position >= self.stop(side) && rate >= 0.0 {
-                motion.rate = 0.0;
+            // The rate of first order is that of the command: rounding may have turned it.
+            if position >= self.stop(side) && (rate >= 0.0 || self.kind == Order::First) {
+                motion.rate = side * rate.min(0.0);
                 if pushes(value - position, size, slope) {
                     return Regime::Held(Limit::Stop(side));
                 }

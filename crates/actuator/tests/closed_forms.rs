@@ -158,6 +158,18 @@ fn an_actuator_that_overshoots_into_its_stop_loses_its_speed() {
 }
 
 #[test]
+fn a_command_that_is_at_the_stop_but_for_rounding_pushes_as_it_moves() {
+    for (kind, side) in [(1.0, 1.0), (2.0, 1.0), (1.0, -1.0), (2.0, -1.0)] {
+        for slope in (1..100).map(|i| 0.07 * f64::from(i)) {
+            let mut stopped = actuator(&[("kind", kind), ("y0", side), ("rate_limit", 1e3)]);
+            input(&mut stopped, side * (1.0 - 0.5 * f64::EPSILON), side * slope);
+            step_to(&mut stopped, 0.1);
+            assert_eq!((y(&mut stopped), get(&mut stopped, "rate")), (side, 0.0), "{kind} {slope}");
+        }
+    }
+}
+
+#[test]
 fn a_resting_actuator_stays_at_rest_with_the_same_bits() {
     for kind in [1.0, 2.0] {
         let mut resting = actuator(&[("kind", kind), ("y0", 0.3), ("u", 0.3)]);
