@@ -1,5 +1,6 @@
 //! Command line of `cargo ahv`.
 
+use crate::models::{PackagedModel, named};
 use crate::own_vehicle::OwnVehicle;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use fmi_model::standard::Standard;
@@ -52,7 +53,8 @@ pub struct Research {
 #[command(after_help = "\
 Examples:
   cargo ahv describe            write modelDescription/modelDescription.xml for FMI 2.0 and
-                                modelDescription/fmi3/modelDescription.xml for FMI 3.0
+                                modelDescription/fmi3/modelDescription.xml for FMI 3.0,
+                                those of the other models in modelDescription/IDENTIFIER
   cargo ahv describe --check    fail if a committed file is out of date")]
 pub struct Describe {
     /// Compare with the files instead of writing them; fail if they differ
@@ -64,6 +66,9 @@ pub struct Describe {
     /// Version of the standard [default: both; 2 with --file]
     #[arg(long, value_name = "VERSION")]
     pub fmi: Option<Fmi>,
+    /// Describe this model only: vehicle, autopilot, actuator, sensor [default: all; vehicle with --file]
+    #[arg(long, value_name = "NAME", value_parser = named)]
+    pub model: Option<&'static PackagedModel>,
 }
 
 /// A version of the standard, as the user names it.
@@ -86,24 +91,31 @@ impl From<Fmi> for Standard {
     }
 }
 
-/// Build the libraries and write the FMU
+/// Build the libraries and write the FMUs of the vehicle, its autopilot, an actuator and a sensor
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   cargo ahv package
-      build for all platforms that this machine has compilers for, and write target/ahv.fmu
+      build for all platforms that this machine has compilers for, and write target/ahv.fmu,
+      target/ahv_autopilot.fmu, target/ahv_actuator.fmu and target/ahv_sensor.fmu
+  cargo ahv package --model autopilot --host-only
+      target/ahv_autopilot-host.fmu alone, for this machine
   cargo ahv package --vehicle mine.toml --coefficients my_air.toml
       the FMU of your own vehicle, target/own/ahv.fmu
   cargo ahv package --library linux64=ahv.so --library win64=ahv.dll
       package libraries that were built elsewhere, for several platforms")]
 pub struct Package {
-    /// FMU to write [default: target/ahv.fmu]
+    /// Package this model only: vehicle, autopilot, actuator, sensor [default: all; vehicle with --output, --library
+    /// or data of your own]
+    #[arg(long, value_name = "NAME", value_parser = named)]
+    pub model: Option<&'static PackagedModel>,
+    /// FMU to write [default: target/IDENTIFIER.fmu, as target/ahv.fmu]
     #[arg(long, value_name = "FILE")]
     pub output: Option<PathBuf>,
     /// Fail if the library for a platform cannot be built
     #[arg(long, conflicts_with = "library")]
     pub all_targets: bool,
-    /// Build for this machine and its C library only, which is faster; writes target/ahv-host.fmu
+    /// Build for this machine and its C library only, which is faster; writes target/ahv-host.fmu and so on
     #[arg(long, conflicts_with_all = ["library", "all_targets"])]
     pub host_only: bool,
     /// Package this library instead of building one (repeatable); platforms: linux64, win64,
@@ -219,7 +231,7 @@ pub struct Poles {
     pub analyse: Analyse,
 }
 
-/// Build the Python package with both FMUs inside: target/ahv-VERSION-py3-none-any.whl
+/// Build the Python package with all FMUs inside: target/ahv-VERSION-py3-none-any.whl
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -227,7 +239,7 @@ Examples:
   cargo ahv wheel --fmu target/ahv-host.fmu       for this machine only
   pip install target/ahv-*.whl")]
 pub struct Wheel {
-    /// FMU of FMI 2.0, with that of FMI 3.0 beside it [default: target/ahv.fmu]
+    /// FMU of the vehicle for FMI 2.0, with the others beside it [default: target/ahv.fmu]
     #[arg(long, value_name = "FILE.fmu")]
     pub fmu: Option<PathBuf>,
 }

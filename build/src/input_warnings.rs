@@ -51,7 +51,11 @@ mod tests {
     #[test]
     fn a_suspicious_file_gives_one_warning() {
         let model = ModelDescription::parse(
-            &crate::describe::xml(fmi_model::standard::Standard::Fmi2).unwrap(),
+            &crate::describe::committed(
+                &crate::models::VEHICLE,
+                fmi_model::standard::Standard::Fmi2,
+            )
+            .unwrap(),
         )
         .unwrap();
         for (text, expected) in [

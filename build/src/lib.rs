@@ -21,6 +21,7 @@ pub mod manoeuvre;
 pub mod master;
 mod masters;
 pub mod model_description;
+pub mod models;
 pub mod modes;
 pub mod own_vehicle;
 pub mod package;

@@ -1,5 +1,6 @@
-//! Collects the licences of everything in the library.
+//! Collects the licences of everything in a library.
 
+use crate::models::PackagedModel;
 use crate::workspace::{MAX_TEXT_BYTES, cargo, read, root};
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
@@ -21,7 +22,7 @@ struct Crate {
 
 /// Licence files by name in the FMU: ours, those of every crate linked into the library or the WebAssembly component,
 /// those of the interface of the latter, and those of the run-time libraries that compilers and linkers add.
-pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
+pub fn collect(model: &PackagedModel) -> Result<BTreeMap<String, Vec<u8>>> {
     let mut files = BTreeMap::new();
     for (name, content) in in_directory(root())? {
         files.insert(format!("documentation/licenses/{name}"), content);
@@ -39,7 +40,7 @@ pub fn collect() -> Result<BTreeMap<String, Vec<u8>>> {
     for (name, content) in in_directory(&root().join("crates/wasm/wit"))? {
         files.insert(format!("documentation/licenses/fmi-ls-wasm/{name}"), content);
     }
-    for linked in linked_crates()? {
+    for linked in linked_crates(model)? {
         let Some(directory) = linked.manifest_path.parent() else { continue };
         for (name, content) in in_directory(directory)? {
             let Crate { name: of, version, .. } = &linked;
@@ -67,12 +68,14 @@ fn in_directory(directory: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(found)
 }
 
-/// The crates linked into the library, without procedural macros, which run only at build time.
-fn linked_crates() -> Result<Vec<Crate>> {
+/// The crates linked into a library, without procedural macros, which run only at build time.
+fn linked_crates(model: &PackagedModel) -> Result<Vec<Crate>> {
+    let own = [model.cargo_package, "ahv-wasm"];
+    let [library, component] = own.map(|package| format!("--package={package}"));
     let tree = cargo_output(&[
         "tree",
-        "--package=ahv-fmu",
-        "--package=ahv-wasm",
+        &library,
+        &component,
         "--edges=normal,no-proc-macro",
         "--prefix=none",
         "--format={p}",
@@ -82,8 +85,7 @@ fn linked_crates() -> Result<Vec<Crate>> {
         .lines()
         .filter_map(|line| line.split_once(" v"))
         .map(|(name, rest)| (name.to_string(), rest.split(' ').next().unwrap_or(rest).to_string()))
-        .filter(|(name, _)| name != "ahv-fmu")
-        .filter(|(name, _)| name != "ahv-wasm")
+        .filter(|(name, _)| !own.contains(&name.as_str()))
         .collect();
     let metadata = cargo_output(&["metadata", "--format-version=1"])?;
     let Metadata { mut packages } =

@@ -1,6 +1,7 @@
 //! Tests the FMU in other masters than FMPy, each in its own Python environment: tests/masters.
 
 use crate::console;
+use crate::models::VEHICLE;
 use crate::package::{self, Targets};
 use crate::python::environment;
 use crate::workspace::root;
@@ -57,7 +58,7 @@ fn tested(name: &str, folder: &Path) -> Result<String> {
         .args(["-m", "pytest", "-p", "no:cacheprovider", "--quiet"])
         .arg(folder)
         .current_dir(root())
-        .env("AHV_FMU", package::default_output(Targets::Possible))
+        .env("AHV_FMU", package::default_output(&VEHICLE, Targets::Possible))
         .output()?;
     let said = String::from_utf8_lossy(&output.stdout);
     if !output.status.success() {

@@ -2,6 +2,7 @@
 
 use crate::cli::{Describe, Test};
 use crate::emulation::{QEMU, WINE, emulated};
+use crate::models::{MODELS, VEHICLE};
 use crate::package::Targets;
 use crate::python::{environment, python};
 use crate::workspace::{cargo, check, root, target, works, write};
@@ -52,14 +53,16 @@ const STEPS: [Step; 20] = [
                 .env_remove(abi_stress::SEQUENCES_VARIABLE),
         )
     }),
-    ("description", Always, |_| describe::run(&Describe { check: true, file: None, fmi: None })),
+    ("description", Always, |_| {
+        describe::run(&Describe { check: true, file: None, fmi: None, model: None })
+    }),
     ("package", Always, |options| {
         let targets = match (options.all_targets, options.thorough) {
             (true, _) => Targets::All,
             (_, true) => Targets::Possible,
             _ => Targets::AsExisting,
         };
-        package::build(&package::default_output(Targets::Possible), targets)
+        package::build_all(targets)
     }),
     ("Python lints", Always, |_| python_lints()),
     ("FMI headers", Always, |_| fmi_headers()),
@@ -150,22 +153,24 @@ pub fn pytest(arguments: &[&str]) -> Result<()> {
             .args(["--numprocesses", &workers.to_string(), "--dist", "worksteal"])
             .args(arguments)
             .current_dir(root())
-            .env("AHV_FMU", package::default_output(Targets::Possible)),
+            .env("AHV_FMU", package::default_output(&VEHICLE, Targets::Possible)),
     )
 }
 
-/// Flies the WebAssembly component of the package in a runtime.
+/// Flies the WebAssembly components of the packages in a runtime.
 fn webassembly(options: &Test) -> Result<()> {
-    let component = match package::component(&package::default_output(Targets::Possible)) {
-        Ok(component) => component,
-        Err(missing) if options.all_targets => return Err(missing),
-        Err(missing) => {
-            errln!("skipped: {missing:#}");
-            return Ok(());
+    let folder = target().join("components");
+    for model in MODELS {
+        let package = package::default_output(model, Targets::Possible);
+        match package::component(model, &package) {
+            Ok(component) => write(&folder.join(format!("{}.wasm", model.identifier)), component)?,
+            Err(missing) if options.all_targets => return Err(missing),
+            Err(missing) => {
+                errln!("skipped: {missing:#}");
+                return Ok(());
+            }
         }
-    };
-    let file = target().join("ahv.wasm");
-    write(&file, component)?;
+    }
     let tests = root().join("tests/wasm");
     let python = environment("wasm", &tests.join("requirements.lock"))?.python;
     check(
@@ -173,8 +178,8 @@ fn webassembly(options: &Test) -> Result<()> {
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--quiet"])
             .arg(tests)
             .current_dir(root())
-            .env("AHV_FMU", package::default_output(Targets::Possible))
-            .env("AHV_WASM", file),
+            .env("AHV_FMU", package::default_output(&VEHICLE, Targets::Possible))
+            .env("AHV_WASM", folder),
     )
 }
 

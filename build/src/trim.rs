@@ -3,12 +3,13 @@
 use crate::cli::{Analyse, Set};
 use crate::model_description::ModelDescription;
 use crate::own_vehicle::OwnVehicle;
+use crate::settings;
 use crate::table::{number, row, table};
-use crate::{describe, settings};
 use ahv::flight::{Flight, Setup};
 use ahv::fmu::Message;
 use ahv::vehicle::{H, eta};
 use anyhow::{Result, anyhow};
+use fmi_model::describe::model_description_of;
 use fmi_model::standard::Standard;
 use fmi_model::table::find;
 use serde_json::json;
@@ -22,7 +23,7 @@ pub fn flight(set: &Set) -> Result<Flight> {
 /// `fly`.
 pub fn setup(own: &OwnVehicle, set: &Set) -> Result<Setup> {
     let mut setup = own.setup()?;
-    let model = ModelDescription::parse(&describe::xml_of(&setup, Standard::Fmi2)?)?;
+    let model = ModelDescription::parse(&model_description_of(&setup, Standard::Fmi2)?)?;
     for setting in settings::parse(&model, &set.settings)? {
         let name = &setting.variable.name;
         let variable = find::<Setup>(name).ok_or_else(|| anyhow!("no variable {name}"))?;

@@ -1,6 +1,7 @@
-//! `cargo ahv wheel`: the Python package with both FMUs inside.
+//! `cargo ahv wheel`: the Python package with all FMUs inside.
 
 use crate::cli::Wheel;
+use crate::models::{MODELS, VEHICLE};
 use crate::package::{self, Targets};
 use crate::python::{Environment, environment};
 use crate::workspace::{MAX_BINARY_BYTES, check, read, root, shown, target, write};
@@ -19,10 +20,15 @@ const LICENSES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 pub fn run(options: &Wheel) -> Result<()> {
     let fmu = match &options.fmu {
         Some(fmu) => fmu.clone(),
-        None => package::default_output(Targets::Possible),
+        None => package::default_output(&VEHICLE, Targets::Possible),
     };
-    if options.fmu.is_none() && !package::is_current(&fmu) {
-        package::build(&fmu, Targets::Possible)?;
+    if options.fmu.is_none() {
+        for model in MODELS {
+            let output = package::default_output(model, Targets::Possible);
+            if !package::is_current(model, &output) {
+                package::build(model, &output, Targets::Possible)?;
+            }
+        }
     }
     let wheel = build(&fmu)?;
     let size = fs::metadata(&wheel)?.len();
@@ -31,7 +37,7 @@ pub fn run(options: &Wheel) -> Result<()> {
 
 /// Tests the wheel: tests/wheel.
 pub fn test() -> Result<()> {
-    let fmu = package::default_output(Targets::Possible);
+    let fmu = package::default_output(&VEHICLE, Targets::Possible);
     let wheel = build(&fmu)?;
     check(
         Command::new(tools()?.python)
@@ -48,7 +54,7 @@ fn tools() -> Result<Environment> {
     environment("wheel/venv", &root().join("tests/wheel/requirements.lock"))
 }
 
-/// Builds the wheel with the FMU of FMI 2.0 and that of FMI 3.0 beside it. The same FMUs give the same bytes.
+/// Builds the wheel with the vehicle's FMU of FMI 2.0 and the other FMUs beside it. The same FMUs give the same bytes.
 fn build(fmu: &Path) -> Result<PathBuf> {
     let staged = target().join("wheel/package");
     stage(&staged, fmu)?;
@@ -90,10 +96,14 @@ fn stage(staged: &Path, fmu: &Path) -> Result<()> {
         let file = root().join("src/data").join(name);
         copy(&file, data.join(file.file_name().unwrap_or_default()))?;
     }
-    for standard in Standard::ALL {
-        let name = package::of(standard, Path::new("ahv.fmu"));
-        copy(&package::of(standard, fmu), data.join(name))
-            .context("a wheel has the FMUs of both standards, which `cargo ahv package` writes")?;
+    for model in MODELS {
+        let from = package::beside(fmu, model)?;
+        for standard in Standard::ALL {
+            let name = standard.file_name(model.identifier);
+            copy(&package::of(standard, &from), data.join(name)).context(
+                "a wheel has all models' FMUs of both standards, which `cargo ahv package` writes",
+            )?;
+        }
     }
     Ok(())
 }

@@ -2,9 +2,10 @@
 
 mod tool;
 
+use ahv_tool::models::MODELS;
 use std::fs;
 use tempfile::TempDir;
-use tool::{ahv, package, scratch};
+use tool::{ahv, library_of, package, package_of, scratch};
 
 #[test]
 fn committed_description_is_up_to_date() {
@@ -28,19 +29,50 @@ fn outdated_description_is_refused_with_line_and_remedy() {
 
 #[test]
 fn same_library_gives_the_same_fmu() {
-    let (_directory, option, fmu) = scratch();
-    let first = package(&option, &fmu);
-    assert_eq!(first, package(&option, &fmu));
-    let archive = zip::ZipArchive::new(std::io::Cursor::new(first)).unwrap();
-    let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
-    for start in [
-        "modelDescription.xml",
-        "binaries/linux64/ahv.so",
-        "documentation/index.html",
-        "documentation/licenses/libm-",
-    ] {
-        assert!(names.iter().any(|name| name.starts_with(start)), "{start} is missing");
+    for model in MODELS {
+        let directory = TempDir::new().unwrap();
+        let fmu = directory.path().join("a.fmu");
+        let option = format!("linux64={}", library_of(model).display());
+        let first = package_of(model, &option, &fmu);
+        assert_eq!(first, package_of(model, &option, &fmu));
+        let archive = zip::ZipArchive::new(std::io::Cursor::new(first)).unwrap();
+        let names: Vec<_> = archive.file_names().map(|name| name.unwrap().into_owned()).collect();
+        for start in [
+            "modelDescription.xml",
+            "model.png",
+            &format!("binaries/linux64/{}.so", model.identifier),
+            "documentation/index.html",
+            "documentation/licenses/LICENSE-MIT",
+            "documentation/licenses/fmi-model-",
+            "documentation/licenses/wit-bindgen-",
+            "terminalsAndIcons/icon.png",
+        ] {
+            assert!(names.iter().any(|name| name.starts_with(start)), "{start} is missing");
+        }
     }
+}
+
+#[test]
+fn the_library_of_another_model_is_refused() {
+    for (model, other) in MODELS.into_iter().zip(MODELS.into_iter().cycle().skip(1)) {
+        let directory = TempDir::new().unwrap();
+        let fmu = directory.path().join("a.fmu");
+        let option = format!("linux64={}", library_of(other).display());
+        let arguments = ["package", "--model", model.name, "--library", &option, "--output"];
+        let done = ahv(&[&arguments[..], &[fmu.to_str().unwrap()]].concat());
+        assert!(!done.ok && done.err.contains(" is {"), "{}", done.err);
+        assert!(!fmu.exists());
+    }
+}
+
+#[test]
+fn a_model_is_named_and_data_are_of_the_vehicle_alone() {
+    let refused = ahv(&["package", "--model", "engine"]);
+    let told = "there is no model `engine`; choose one of vehicle, ";
+    assert!(!refused.ok && refused.err.contains(told), "{}", refused.err);
+    let refused = ahv(&["package", "--model", "sensor", "--vehicle", "mine.toml"]);
+    let told = "data of the vehicle; sensor has none";
+    assert!(!refused.ok && refused.err.contains(told), "{}", refused.err);
 }
 
 #[test]

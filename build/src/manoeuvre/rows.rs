@@ -185,8 +185,14 @@ mod tests {
     use super::*;
 
     fn model() -> ModelDescription {
-        ModelDescription::parse(&crate::describe::xml(fmi_model::standard::Standard::Fmi2).unwrap())
-            .unwrap()
+        ModelDescription::parse(
+            &crate::describe::committed(
+                &crate::models::VEHICLE,
+                fmi_model::standard::Standard::Fmi2,
+            )
+            .unwrap(),
+        )
+        .unwrap()
     }
 
     #[test]

@@ -166,8 +166,8 @@ impl Binary {
         self.macho.as_ref().map_or(Ok(()), |macho| macho.check(platform))
     }
 
-    /// Also checks that old systems have the dependencies.
-    pub fn check_everywhere(&self, platform: Platform) -> Result<()> {
+    /// Also checks that old systems have the dependencies, and on macOS the name of the library.
+    pub fn check_everywhere(&self, platform: Platform, identifier: &str) -> Result<()> {
         self.check(platform)?;
         if self.needed.contains(UNWINDER) {
             bail!("{} needs {UNWINDER}: not part of every system", platform.fmi2);
@@ -176,7 +176,7 @@ impl Binary {
             let (most, least) = GLIBC;
             bail!("{} needs glibc {major}.{minor}, newer than {most}.{least}", platform.fmi2);
         }
-        self.macho.as_ref().map_or(Ok(()), |macho| macho.check_everywhere(platform))
+        self.macho.as_ref().map_or(Ok(()), |macho| macho.check_everywhere(platform, identifier))
     }
 }
 
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn what_users_may_not_have_is_refused() {
         let linux = |glibc, needed| binary(LINUX, glibc, needed);
-        assert!(linux((2, 17), "libc.so.6").check_everywhere(LINUX).is_ok());
+        assert!(linux((2, 17), "libc.so.6").check_everywhere(LINUX, "ahv").is_ok());
         for (binary, platform, reason) in [
             (linux((2, 18), "libc.so.6"), LINUX, "needs glibc 2.18"),
             (linux((2, 17), UNWINDER), LINUX, "needs libgcc_s.so.1"),
@@ -217,7 +217,7 @@ mod tests {
             (binary(WINDOWS, GLIBC, "libwinpthread-1.dll"), WINDOWS, "needs libwinpthread-1.dll"),
             (linux((2, 17), "libc.so.6"), WINDOWS, "win64 needs Pe for X86_64, this is Elf"),
         ] {
-            let message = binary.check_everywhere(platform).unwrap_err().to_string();
+            let message = binary.check_everywhere(platform, "ahv").unwrap_err().to_string();
             assert!(message.contains(reason), "{message}");
         }
         // A library for this machine only may use everything that it has.

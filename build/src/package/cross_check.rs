@@ -1,19 +1,19 @@
 //! The files of the FMI cross-check: inputs, options and reference outputs.
 
 use super::Files;
-use crate::describe::MODEL_IDENTIFIER;
 use crate::fly::{STEP, positive};
 use crate::fmu::Fmu;
 use crate::manoeuvre::Manoeuvre;
 use crate::master::Instance;
 use crate::model_description::Causality;
+use crate::models::VEHICLE;
 use crate::simulation;
 use crate::workspace::{MAX_TEXT_BYTES, read, root};
 use anyhow::{Result, bail};
 
 /// Path of one of the files in the FMU.
 pub fn path(ending: &str) -> String {
-    format!("documentation/cross-check/{MODEL_IDENTIFIER}_{ending}")
+    format!("documentation/cross-check/{}_{ending}", VEHICLE.identifier)
 }
 
 /// Flies the elevator doublet of the examples with an FMU; returns the files by name.

@@ -2,17 +2,15 @@
 
 use super::binary::Binary;
 use super::platform::{LINUX, LINUX_ARM, MACOS, MACOS_ARM, Platform, WINDOWS, host};
-use super::{Files, Targets, library, of, platform, universal, wasm};
+use super::{Files, Targets, archive, library, of, platform, universal, wasm};
 use crate::console;
-use crate::describe::MODEL_IDENTIFIER;
+use crate::models::PackagedModel;
 use crate::python::Environment;
 use crate::workspace::{MAX_BINARY_BYTES, read, shown};
 use anyhow::{Context, Result, bail};
 use fmi_model::platform::PLATFORMS;
 use fmi_model::standard::Standard;
-use std::io::{Cursor, Read};
 use std::path::Path;
-use zip::ZipArchive;
 
 /// What a full package contains besides the library for Linux on x86-64, where it is built.
 const OTHERS: [Platform; 4] = [WINDOWS, LINUX_ARM, MACOS, MACOS_ARM];
@@ -25,8 +23,8 @@ pub struct Library {
 }
 
 /// Libraries for an FMU.
-#[derive(Default)]
 pub struct Libraries {
+    pub model: &'static PackagedModel,
     pub found: Vec<Library>,
     /// The WebAssembly component, which only FMI 3.0 knows.
     pub component: Option<Vec<u8>>,
@@ -39,9 +37,20 @@ pub struct Libraries {
 }
 
 impl Libraries {
+    fn none(model: &'static PackagedModel) -> Self {
+        Self {
+            model,
+            found: Vec::new(),
+            component: None,
+            prebuilt: false,
+            licenses: None,
+            missing: Vec::new(),
+        }
+    }
+
     /// Those that the user names, as `platform=file`.
-    pub fn given(options: &[String]) -> Result<Self> {
-        let mut libraries = Self { prebuilt: true, ..Self::default() };
+    pub fn given(model: &'static PackagedModel, options: &[String]) -> Result<Self> {
+        let mut libraries = Self { prebuilt: true, ..Self::none(model) };
         for option in options {
             let (platform, file) = platform::parse_library_option(option)?;
             libraries.read(platform, &file)?;
@@ -50,25 +59,24 @@ impl Libraries {
     }
 
     /// Those of a package, whose FMU of FMI 2.0 this is, for a vehicle in files: a component reads none.
-    pub fn of_package(package: &Path) -> Result<Self> {
-        let mut libraries = Self::default();
+    pub fn of_package(model: &'static PackagedModel, package: &Path) -> Result<Self> {
+        let mut libraries = Self::none(model);
         for platform in PLATFORMS {
-            let name = platform.binary(Standard::Fmi2, MODEL_IDENTIFIER);
-            let Ok(content) = entry(package, &name) else { continue };
-            let content = universal::part(&content, platform)?.to_vec();
+            let found = archive::library(package, model.identifier, platform);
+            let Ok(content) = found else { continue };
             libraries.add(platform, content).with_context(|| shown(package))?;
         }
         libraries.missing.push("without WebAssembly: a component reads no files".to_string());
-        libraries.licenses = Some(entries(package, "documentation/licenses/")?);
+        libraries.licenses = Some(archive::entries(package, "documentation/licenses/")?);
         Ok(libraries)
     }
 
     /// Builds them; `package` is the existing one.
-    pub fn build(targets: Targets, package: &Path) -> Result<Self> {
+    pub fn build(model: &'static PackagedModel, targets: Targets, package: &Path) -> Result<Self> {
         let host = host()?;
-        let mut libraries = Self::default();
+        let mut libraries = Self::none(model);
         if targets == Targets::Host || host != LINUX {
-            libraries.read(host, &library::for_host()?)?;
+            libraries.read(host, &library::for_host(model)?)?;
             if targets != Targets::Host {
                 libraries.missing.push(format!(
                     "contains only {}: packages for all platforms are built on Linux (x86-64)",
@@ -89,9 +97,9 @@ impl Libraries {
     pub fn files(&self, standard: Standard) -> Files {
         let libraries = self.found.iter();
         let libraries = libraries.map(|library| (library.platform, library.content.as_slice()));
-        let mut files = files(&libraries.collect::<Vec<_>>(), standard);
+        let mut files = files(self.model.identifier, &libraries.collect::<Vec<_>>(), standard);
         if let (Standard::Fmi3, Some(component)) = (standard, &self.component) {
-            files.insert(wasm::name(), component.clone());
+            files.insert(wasm::name(self.model.identifier), component.clone());
             files.extend(wasm::manifests());
         }
         files
@@ -118,13 +126,16 @@ impl Libraries {
 
     /// Builds for Linux on x86-64; returns the linker for the other platforms.
     fn linux(&mut self) -> Result<Option<Environment>> {
+        let identifier = self.model.identifier;
         match library::zig() {
             Ok(zig) => {
-                self.read(LINUX, &library::for_linux(&zig)?)?.check_everywhere(LINUX)?;
+                let library = library::for_linux(&zig, self.model)?;
+                self.read(LINUX, &library)?.check_everywhere(LINUX, identifier)?;
                 Ok(Some(zig))
             }
             Err(error) => {
-                let glibc = self.read(LINUX, &library::for_host()?)?.glibc.unwrap_or_default();
+                let glibc =
+                    self.read(LINUX, &library::for_host(self.model)?)?.glibc.unwrap_or_default();
                 self.missing.push(format!(
                     "linux64 needs glibc {}.{}, as this machine has; supporting glibc 2.17 requires \
                      the linker of zig: {}",
@@ -141,10 +152,12 @@ impl Libraries {
     fn others(&mut self, zig: Option<&Environment>) -> Result<()> {
         // Platforms that lack the same are told of together.
         let mut lacking: Vec<(String, Vec<&str>)> = Vec::new();
+        let identifier = self.model.identifier;
         for platform in OTHERS {
             match library::builder(platform, zig) {
                 Ok(builder) => {
-                    self.read(platform, &builder.build()?)?.check_everywhere(platform)?;
+                    let library = builder.build(self.model)?;
+                    self.read(platform, &library)?.check_everywhere(platform, identifier)?;
                 }
                 Err(error) => {
                     let reason = console::error_chain(&error);
@@ -155,7 +168,7 @@ impl Libraries {
                 }
             }
         }
-        match wasm::component() {
+        match wasm::component(identifier) {
             Ok(component) => self.component = Some(component),
             Err(error) => lacking.push((console::error_chain(&error), vec!["WebAssembly"])),
         }
@@ -169,17 +182,19 @@ impl Libraries {
     /// Keeps the other platforms of a package whose library for Linux is the one just built: the model is the
     /// same.
     fn keep(&mut self, package: &Path) -> Result<()> {
+        let identifier = self.model.identifier;
         let linux = self.get(LINUX).map(|library| library.content.clone()).unwrap_or_default();
         let mut lacking = Vec::new();
         for platform in OTHERS {
-            match kept(package, &linux, platform) {
+            match archive::kept(package, identifier, &linux, platform) {
                 Some(content) => {
-                    self.add(platform, content)?.check_everywhere(platform)?;
+                    self.add(platform, content)?.check_everywhere(platform, identifier)?;
                 }
                 None => lacking.push(platform.fmi2),
             }
         }
-        self.component = component(&of(Standard::Fmi3, package), &linux).ok();
+        let fmi3 = of(Standard::Fmi3, package);
+        self.component = archive::component(&fmi3, identifier, &linux).ok();
         if self.component.is_none() {
             lacking.push("WebAssembly");
         }
@@ -192,9 +207,9 @@ impl Libraries {
 }
 
 /// Names and contents of libraries in an archive.
-fn files(libraries: &[(Platform, &[u8])], standard: Standard) -> Files {
+fn files(identifier: &str, libraries: &[(Platform, &[u8])], standard: Standard) -> Files {
     let named = |(platform, content): &(Platform, &[u8])| {
-        (platform.binary(standard, MODEL_IDENTIFIER), content.to_vec())
+        (platform.binary(standard, identifier), content.to_vec())
     };
     let mut files: Files = libraries.iter().map(named).collect();
     // Some masters for FMI 2.0 look for ARM under the name of x86-64. On macOS one file can be for both.
@@ -202,54 +217,9 @@ fn files(libraries: &[(Platform, &[u8])], standard: Standard) -> Files {
     if standard == Standard::Fmi2
         && let (Some((_, intel)), Some((_, arm))) = (find(MACOS), find(MACOS_ARM))
     {
-        files.insert(MACOS.binary(standard, MODEL_IDENTIFIER), universal::join(&[intel, arm]));
+        files.insert(MACOS.binary(standard, identifier), universal::join(&[intel, arm]));
     }
     files
-}
-
-/// The component in an FMU of FMI 3.0 whose library for Linux is `linux`.
-fn component(package: &Path, linux: &[u8]) -> Result<Vec<u8>> {
-    if entry(package, &LINUX.binary(Standard::Fmi3, MODEL_IDENTIFIER))? != linux {
-        bail!("{} is of another model", shown(package));
-    }
-    entry(package, &wasm::name())
-}
-
-/// A file in an archive.
-pub fn entry(package: &Path, name: &str) -> Result<Vec<u8>> {
-    let mut archive = ZipArchive::new(Cursor::new(read(package, MAX_BINARY_BYTES)?))?;
-    let file =
-        archive.by_name(name).with_context(|| format!("{} has no {name}", shown(package)))?;
-    let mut content = Vec::new();
-    file.take(MAX_BINARY_BYTES).read_to_end(&mut content)?;
-    Ok(content)
-}
-
-/// The files below a folder in an archive.
-fn entries(package: &Path, folder: &str) -> Result<Files> {
-    let mut archive = ZipArchive::new(Cursor::new(read(package, MAX_BINARY_BYTES)?))?;
-    let mut files = Files::new();
-    for index in 0..archive.len() {
-        let file = archive.by_index(index)?;
-        let name = file.name()?.into_owned();
-        if name.starts_with(folder) && file.is_file() {
-            let mut content = Vec::new();
-            file.take(MAX_BINARY_BYTES).read_to_end(&mut content)?;
-            files.insert(name, content);
-        }
-    }
-    Ok(files)
-}
-
-/// The library for a platform in an FMU whose library for Linux is `linux`.
-fn kept(package: &Path, linux: &[u8], platform: Platform) -> Option<Vec<u8>> {
-    let packaged = |platform: Platform| {
-        entry(package, &platform.binary(Standard::Fmi2, MODEL_IDENTIFIER)).ok()
-    };
-    if packaged(LINUX)? != linux {
-        return None;
-    }
-    Some(universal::part(&packaged(platform)?, platform).ok()?.to_vec())
 }
 
 #[cfg(test)]
@@ -275,7 +245,7 @@ mod tests {
         let libraries = libraries();
         let borrowed: Vec<_> =
             libraries.iter().map(|(platform, content)| (*platform, content.as_slice())).collect();
-        files(&borrowed, standard)
+        files("ahv", &borrowed, standard)
     }
 
     #[test]
@@ -313,11 +283,11 @@ mod tests {
     fn libraries_of_a_package_are_kept_only_beside_the_same_library_for_linux() {
         let directory = TempDir::new().unwrap();
         let package = directory.path().join("ahv.fmu");
-        assert_eq!(kept(&package, b"linux", WINDOWS), None);
+        assert_eq!(archive::kept(&package, "ahv", b"linux", WINDOWS), None);
         write(&package, zip(&archived(Standard::Fmi2)).unwrap()).unwrap();
         for (platform, content) in libraries() {
-            assert_eq!(kept(&package, b"linux", platform), Some(content));
-            assert_eq!(kept(&package, b"changed", platform), None);
+            assert_eq!(archive::kept(&package, "ahv", b"linux", platform), Some(content));
+            assert_eq!(archive::kept(&package, "ahv", b"changed", platform), None);
         }
     }
 }

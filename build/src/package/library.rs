@@ -4,7 +4,7 @@ use super::binary::GLIBC;
 use super::macos;
 use super::platform::{LINUX, LINUX_ARM, Platform, WINDOWS, host};
 use super::toolchain::{Toolchain, output_of};
-use crate::describe::MODEL_IDENTIFIER;
+use crate::models::{PackagedModel, VEHICLE};
 use crate::python::{Environment, environment};
 use crate::workspace::{cargo, root, target, variable};
 use anyhow::{Context, Result, anyhow, bail};
@@ -17,10 +17,10 @@ use std::process::{Command, Stdio};
 const MINGW: &str = "x86_64-w64-mingw32-gcc";
 
 /// Builds the library for this machine, which then needs its C library or a newer one.
-pub fn for_host() -> Result<PathBuf> {
+pub fn for_host(model: &PackagedModel) -> Result<PathBuf> {
     let mut command = cargo();
     command.arg("rustc");
-    compile(command, host()?, "host", Vec::new())
+    compile(command, &Product::library(model), host()?, "host", Flags::default())
 }
 
 /// The linker of zig, which has the interfaces of all glibc versions and of macOS.
@@ -29,8 +29,9 @@ pub fn zig() -> Result<Environment> {
 }
 
 /// Builds the library for Linux on this processor, linked against the interface of glibc 2.17.
-pub fn for_linux(zig: &Environment) -> Result<PathBuf> {
-    compile(with_zig(zig, &Toolchain::OWN, LINUX, "rustc"), LINUX, LINUX.fmi2, Vec::new())
+pub fn for_linux(zig: &Environment, model: &PackagedModel) -> Result<PathBuf> {
+    let command = with_zig(zig, &Toolchain::OWN, LINUX, "rustc");
+    compile(command, &Product::library(model), LINUX, LINUX.fmi2, Flags::default())
 }
 
 /// What builds the library for another platform.
@@ -66,25 +67,26 @@ pub fn builder(platform: Platform, zig: Option<&Environment>) -> Result<Builder<
 
 impl Builder<'_> {
     /// Builds the library.
-    pub fn build(&self) -> Result<PathBuf> {
+    pub fn build(&self, model: &PackagedModel) -> Result<PathBuf> {
         let (platform, toolchain) = (self.platform, &self.toolchain);
-        let mut flags = Vec::new();
+        let mut flags = Flags::default();
         let command = match &self.linker {
             Linker::Zig(zig) => with_zig(zig, toolchain, platform, "rustc"),
             Linker::Mingw => {
-                flags.push("-Clink-arg=-Wl,--no-insert-timestamp".into());
+                flags.all.push("-Clink-arg=-Wl,--no-insert-timestamp".into());
                 with_mingw(toolchain)
             }
             Linker::Lld(zig, linker) => {
-                flags.extend(macos::flags(linker));
+                flags.all.extend(macos::flags(linker));
+                flags.product = macos::name_flags(model.identifier);
                 let mut command = toolchain.cargo();
                 command.args(["--target", platform.triple]);
                 macos::configure(&mut command, zig)?;
                 command
             }
         };
-        flags.extend(self.std_remap());
-        compile(command, platform, toolchain.directory(), flags)
+        flags.all.extend(self.std_remap());
+        compile(command, &Product::library(model), platform, toolchain.directory(), flags)
     }
 
     fn std_remap(&self) -> Option<OsString> {
@@ -139,45 +141,63 @@ fn with_zig(
     command
 }
 
-/// Compiles the library for a platform.
-fn compile(
-    command: Command,
-    platform: Platform,
-    directory: &str,
-    flags: Vec<OsString>,
-) -> Result<PathBuf> {
-    compile_crate(command, "ahv-fmu", MODEL_IDENTIFIER, platform, directory, flags)
+/// What Cargo makes: a package's library or example of this name, also a library.
+pub struct Product<'a> {
+    pub package: &'a str,
+    pub is_example: bool,
+    pub name: &'a str,
 }
 
-/// Runs `cargo rustc` with our options; returns the path of the library with this name of a package.
+impl<'a> Product<'a> {
+    fn library(model: &'a PackagedModel) -> Self {
+        Self { package: model.cargo_package, is_example: false, name: model.identifier }
+    }
+}
+
+/// Flags of the compiler.
+#[derive(Default)]
+pub struct Flags {
+    /// For every crate. Models that share dependencies have the same ones, or these are compiled for each.
+    pub all: Vec<OsString>,
+    /// For the library itself.
+    pub product: Vec<OsString>,
+}
+
+/// Runs `cargo rustc` with our options; returns the path of the library.
 ///
 /// Each kind of build has its own target directory, because compilers and flags differ.
-pub fn compile_crate(
+pub fn compile(
     mut command: Command,
-    package: &str,
-    name: &str,
+    product: &Product,
     platform: Platform,
     directory: &str,
-    flags: Vec<OsString>,
+    flags: Flags,
 ) -> Result<PathBuf> {
+    let Product { package, is_example, name } = *product;
+    let selected: &[_] = if is_example { &["--example", name] } else { &["--lib"] };
     command
-        .args(["--release", "--package", package, "--lib", "--crate-type", "cdylib"])
+        .args(["--release", "--package", package, "--crate-type", "cdylib"])
+        .args(selected)
         .args(profile(platform))
         .arg("--message-format=json-render-diagnostics")
         .arg("--target-dir")
         .arg(target().join("fmu").join(directory))
-        .env("CARGO_ENCODED_RUSTFLAGS", rustflags(flags))
+        .env("CARGO_ENCODED_RUSTFLAGS", rustflags(flags.all))
+        .arg("--")
+        .args(flags.product)
         .stderr(Stdio::inherit());
     let output = command
         .output()
         .with_context(|| format!("cannot start {}", command.get_program().display()))?;
     if !output.status.success() {
-        bail!("the library for {} does not compile: see the messages above", platform.fmi2);
+        bail!("{name} for {} does not compile: see the messages above", platform.fmi2);
     }
     String::from_utf8_lossy(&output.stdout)
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
         .filter(|message| message["reason"] == "compiler-artifact")
+        // A dependency may have the same name.
+        .filter(|message| (message["target"]["kind"][0] == "example") == is_example)
         .filter_map(|message| message["filenames"].as_array().cloned())
         .flatten()
         .filter_map(|file| file.as_str().map(PathBuf::from))
@@ -207,7 +227,7 @@ fn rustflags(ours: Vec<OsString>) -> OsString {
         .map(PathBuf::from)
         .or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
     let mut prefixes =
-        vec![(root().to_path_buf(), MODEL_IDENTIFIER), (target().join("fmu"), "target")];
+        vec![(root().to_path_buf(), VEHICLE.identifier), (target().join("fmu"), "target")];
     let registries = home.and_then(|home| fs::read_dir(home.join("registry/src")).ok());
     let directories = registries.into_iter().flatten().flatten();
     prefixes.extend(directories.map(|directory| (directory.path(), "crates")));

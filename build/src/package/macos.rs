@@ -3,7 +3,6 @@
 //! The linker of zig itself exports more than the functions of the standard.
 
 use super::toolchain::output_of;
-use crate::describe::MODEL_IDENTIFIER;
 use crate::python::Environment;
 use crate::workspace::{MAX_BINARY_BYTES, read_text, target, variable, write};
 use anyhow::{Context, Result, anyhow};
@@ -14,18 +13,22 @@ use std::process::Command;
 /// The oldest macOS that the libraries run on: the first for ARM.
 pub const OLDEST: (u16, u8) = (11, 0);
 
-/// The name by which the library knows itself.
-pub fn install_name() -> String {
-    format!("@rpath/{MODEL_IDENTIFIER}.dylib")
+/// The name by which a model's library knows itself.
+pub fn install_name(identifier: &str) -> String {
+    format!("@rpath/{identifier}.dylib")
 }
 
 /// Flags of the compiler.
-pub fn flags(linker: &Path) -> Vec<OsString> {
+pub fn flags(linker: &Path) -> [OsString; 2] {
     let mut path = OsString::from("-Clinker=");
     path.push(linker);
-    let name = format!("-Clink-arg={}", install_name());
-    let others = ["-Clinker-flavor=ld64.lld", "-Clink-arg=-install_name", &name];
-    others.into_iter().map(OsString::from).chain([path]).collect()
+    ["-Clinker-flavor=ld64.lld".into(), path]
+}
+
+/// Flags that give a model's library its name.
+pub fn name_flags(identifier: &str) -> Vec<OsString> {
+    let name = format!("-Clink-arg={}", install_name(identifier));
+    vec!["-Clink-arg=-install_name".into(), name.into()]
 }
 
 /// Environment of the compiler.

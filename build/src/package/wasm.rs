@@ -1,11 +1,11 @@
 //! The WebAssembly component of the FMU, by the draft of the layered standard FMI-LS-WASM.
 
-use super::library::{compile_crate, remap};
+use super::library::{Flags, Product, compile, remap};
 use super::platform::Platform;
 use super::toolchain::{Toolchain, output_of};
-use crate::describe::MODEL_IDENTIFIER;
 use crate::workspace::{cargo, root, shown};
 use anyhow::{Context, Result, bail};
+use fmi_model::standard::Standard;
 use std::path::Path;
 use std::process::Stdio;
 
@@ -33,27 +33,28 @@ const MANIFEST: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
     fmi-ls:fmi-ls-description="FMI Layered Standard for WebAssembly"/>
 "#;
 
-/// Name of the component in an archive of FMI 3.0.
-pub fn name() -> String {
-    format!("binaries/{}/{MODEL_IDENTIFIER}.{}", WASM.fmi3, WASM.ending)
+/// Name of a model's component in an archive of FMI 3.0.
+pub fn name(identifier: &str) -> String {
+    WASM.binary(Standard::Fmi3, identifier)
 }
 
-/// Builds the component, or says what is missing for it.
-pub fn component() -> Result<Vec<u8>> {
+/// Builds a model's component, or says what is missing for it.
+pub fn component(identifier: &str) -> Result<Vec<u8>> {
     let toolchain = Toolchain::new(WASM)?;
     let mut command = toolchain.cargo();
     command.args(["--target", WASM.triple]);
     // Every runtime that has components has these instructions.
-    let mut flags = vec!["-Ctarget-feature=+simd128".into()];
+    let mut flags = Flags { all: vec!["-Ctarget-feature=+simd128".into()], ..Flags::default() };
     if let Some(sources) = &toolchain.std {
         if output_of(Path::new(LINKER), &["--version"]).is_none() {
             bail!("the linker {LINKER} is missing; on Debian: apt-get install lld");
         }
         command.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", LINKER);
-        flags.push(remap(sources, "rust"));
+        flags.all.push(remap(sources, "rust"));
     }
     let directory = toolchain.directory();
-    wrap(&compile_crate(command, "ahv-wasm", "ahv_wasm", WASM, directory, flags)?)
+    let product = Product { package: "ahv-wasm", is_example: true, name: identifier };
+    wrap(&compile(command, &product, WASM, directory, flags)?)
 }
 
 /// Wraps a core module into a component.

@@ -12,7 +12,9 @@ use crate::log::CATEGORIES;
 use crate::model::{Model, Remedy};
 use crate::standard::Standard;
 use crate::variable::Role;
-use std::io;
+use std::env;
+use std::io::{self, Write};
+use std::process::ExitCode;
 pub use xml::Xml;
 
 /// The whole file. The same sources give the same bytes: no date, no path, no host.
@@ -33,6 +35,28 @@ pub fn model_description_of<M: Model>(model: &M, standard: Standard) -> Result<S
         Standard::Fmi3 => v3::written(model),
     };
     written.map_err(|error| Failure::Model { text: error.to_string(), remedy: Remedy::Reset })
+}
+
+/// The program that prints the description for the version of the standard that is its argument, 2 or 3.
+pub fn main<M: Model>() -> ExitCode {
+    let standard = match env::args().nth(1).as_deref() {
+        Some("2") => Standard::Fmi2,
+        Some("3") => Standard::Fmi3,
+        _ => return failed("the version of the standard is expected, 2 or 3"),
+    };
+    match model_description::<M>(standard) {
+        Err(error) => failed(&error.to_string()),
+        Ok(xml) => match io::stdout().write_all(xml.as_bytes()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => failed(&error.to_string()),
+        },
+    }
+}
+
+fn failed(problem: &str) -> ExitCode {
+    // If no one can be told, the code remains.
+    let _ = writeln!(io::stderr(), "error: {problem}");
+    ExitCode::FAILURE
 }
 
 /// The units of the table by name, in order of appearance. Units of the same name (a rate and a

@@ -28,8 +28,8 @@ static REPORT: LazyLock<String> = LazyLock::new(|| {
 });
 
 fn documentation() -> String {
-    let setup = ahv::flight::Setup::new().unwrap();
-    ahv_tool::documentation::html(&setup, Standard::Fmi2, &["Linux".to_string()]).unwrap()
+    let content = (ahv_tool::models::VEHICLE.content)().unwrap();
+    ahv_tool::documentation::html(&content, Standard::Fmi2, &["Linux".to_string()]).unwrap()
 }
 
 fn between<'a>(text: &'a str, from: &str, to: &str) -> Option<&'a str> {

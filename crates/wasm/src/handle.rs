@@ -6,7 +6,7 @@ use fmi_model::failure::{Failure, Outcome};
 use fmi_model::guard;
 use fmi_model::instance::{Instance, Interface};
 use fmi_model::instantiate::Request;
-use fmi_model::model::Model;
+use fmi_model::model::{Model, Resources};
 use fmi_model::phase::Call;
 use fmi_model::standard::Standard;
 use fmi_model::status;
@@ -31,12 +31,15 @@ impl<M: Model> Handle<M> {
         resource_path: &str,
         logging_on: bool,
     ) -> Option<Self> {
+        // A component reads no files: of data that can be replaced it has the built-in ones.
+        let has_folder =
+            !resource_path.is_empty() && !matches!(M::RESOURCES, Resources::Replaceable(_));
         let request = Request {
             name: &name,
             interface,
             token_argument: "instantiationToken",
             token,
-            resources: (!resource_path.is_empty()).then(|| resource_path.into()),
+            resources: has_folder.then(|| resource_path.into()),
             logging_on,
         };
         match Instance::instantiate(request) {

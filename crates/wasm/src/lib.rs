@@ -1,5 +1,5 @@
-//! The FMU as a WebAssembly component, by the draft of the layered standard FMI-LS-WASM: functions of
-//! FMI 3.0 for Co-Simulation and Model Exchange, their interface in `wit/`.
+//! Any model as a WebAssembly component, by the draft of the layered standard FMI-LS-WASM: functions of
+//! FMI 3.0 for Co-Simulation and Model Exchange, their interface in `wit/`. Each file in `components/` makes one.
 //!
 //! | module | its job |
 //! |---|---|
@@ -24,30 +24,40 @@ pub mod model_exchange;
 mod shared;
 pub mod values;
 
-use ahv::flight::Setup;
 use bindings::exports::fmi::fmi3::{co_simulation as cs, common, model_exchange as me};
+use fmi_model::model::Model;
 use handle::Handle;
+use std::marker::PhantomData;
 
-/// The component.
+/// The component of a model.
 #[derive(Debug)]
-pub struct Component;
+pub struct Component<M>(PhantomData<M>);
 
-impl common::Guest for Component {
+impl<M: Model> common::Guest for Component<M> {
     fn get_version() -> String {
         "3.0".to_string()
     }
 }
 
-impl cs::Guest for Component {
-    type CoSimulationInstance = Handle<Setup>;
+impl<M: Model> cs::Guest for Component<M> {
+    type CoSimulationInstance = Handle<M>;
 }
 
-impl me::Guest for Component {
-    type ModelExchangeInstance = Handle<Setup>;
+impl<M: Model> me::Guest for Component<M> {
+    type ModelExchangeInstance = Handle<M>;
 }
 
-#[cfg(target_family = "wasm")]
-#[allow(unsafe_code, reason = "names and sections of the canonical ABI")]
-const _: () = {
-    bindings::export!(Component);
-};
+/// Exports the functions of a [`Model`]: all that a `cdylib` needs.
+#[macro_export]
+macro_rules! component {
+    ($model:ty) => {
+        /// The component.
+        pub type Component = $crate::Component<$model>;
+
+        #[cfg(target_family = "wasm")]
+        #[allow(unsafe_code, reason = "names and sections of the canonical ABI")]
+        const _: () = {
+    $crate::bindings::export!(Component with_types_in $crate::bindings);
+        };
+    };
+}

@@ -57,8 +57,8 @@ impl MachO {
     }
 
     /// Also checks that it may lie anywhere and runs on an old system.
-    pub fn check_everywhere(&self, platform: Platform) -> Result<()> {
-        if self.name != install_name() {
+    pub fn check_everywhere(&self, platform: Platform, identifier: &str) -> Result<()> {
+        if self.name != install_name(identifier) {
             bail!("{} has the install name {:?}", platform.fmi2, self.name);
         }
         let ((major, minor), least) = (self.oldest, OLDEST);
@@ -81,10 +81,10 @@ mod tests {
 
     #[test]
     fn what_macos_would_not_load_everywhere_is_refused() {
-        let good = || MachO { name: install_name(), oldest: OLDEST, signed: true };
+        let good = || MachO { name: install_name("ahv"), oldest: OLDEST, signed: true };
         let everywhere = |library: MachO, platform| {
             library.check(platform)?;
-            library.check_everywhere(platform)
+            library.check_everywhere(platform, "ahv")
         };
         for platform in [MACOS, MACOS_ARM] {
             everywhere(good(), platform).unwrap();

@@ -43,7 +43,7 @@ const SIDE: f64 = 20.0;
 /// A model's icon is 20 mm wide.
 const TO_MM: f64 = 0.1;
 
-/// The whole file.
+/// The whole file; without terminals it says where the model's icon is.
 ///
 /// # Errors
 /// None: writing to memory does not fail.
@@ -60,6 +60,9 @@ pub fn terminals_and_icons(terminals: &[Terminal]) -> io::Result<String> {
             xml.leaf("CoordinateSystem", &[whole.as_slice(), &[scaling]].concat())?;
             xml.leaf("Icon", &whole)
         })?;
+        if terminals.is_empty() {
+            return Ok(());
+        }
         xml.parent("Terminals", &[], |xml| {
             for side in [Side::Input, Side::Output] {
                 let group: Vec<_> = terminals.iter().filter(|t| t.side == side).collect();

@@ -1,0 +1,5 @@
+//! Prints the actuator's description, for `cargo ahv describe`.
+
+fn main() -> std::process::ExitCode {
+    fmi_model::describe::main::<ahv_actuator::Actuator>()
+}

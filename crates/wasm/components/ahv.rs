@@ -1,0 +1,3 @@
+//! The vehicle.
+
+ahv_wasm::component!(ahv::flight::Setup);

@@ -1,0 +1,3 @@
+//! The actuator.
+
+ahv_wasm::component!(ahv_actuator::Actuator);

@@ -1,0 +1,3 @@
+//! The autopilot.
+
+ahv_wasm::component!(ahv_autopilot::Autopilot);

@@ -1,0 +1,3 @@
+//! The sensor.
+
+ahv_wasm::component!(ahv_sensor::Sensor);
