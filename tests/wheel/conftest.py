@@ -46,9 +46,24 @@ def installed(request: pytest.FixtureRequest) -> Path:
 
 @pytest.fixture(scope="session")
 def fmus() -> dict[str, Path]:
-    """The FMUs that the wheel was built with, by version of the standard."""
+    """The vehicle's FMUs that the wheel was built with, by version of the standard."""
     fmu = Path(os.environ["AHV_FMU"]).resolve()
     return {"2.0": fmu, "3.0": fmu.with_name(f"{fmu.stem}_fmi3.fmu")}
+
+
+@pytest.fixture(scope="session")
+def all_fmus(fmus: dict[str, Path]) -> dict[tuple[str, str], Path]:
+    """The FMUs that the wheel was built with, by version of the standard and model."""
+    own = {("vehicle", version): file for version, file in fmus.items()}
+    parts = {
+        (part.name.removeprefix("ahv_"), version): file.with_name(
+            file.name.replace("ahv", part.name, 1)
+        )
+        for part in (ROOT / "modelDescription").glob("ahv_*")
+        for version, file in fmus.items()
+    }
+    assert len(parts) >= 2
+    return own | parts
 
 
 @pytest.fixture(scope="session")

@@ -97,6 +97,8 @@ def test_the_fmu_says_why_it_refuses(
 def test_versions_and_templates_that_do_not_exist_are_refused() -> None:
     with pytest.raises(ValueError, match=r'"2.0" or "3.0" is expected'):
         ahv.fmu("1.0")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match='"autopilot", "actuator", "sensor" is expected'):
+        ahv.fmu(model="engine")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match='"vehicle" or "coefficients" is expected'):
         ahv.template("engine")  # type: ignore[arg-type]
 

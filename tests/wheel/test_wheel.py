@@ -13,6 +13,9 @@ from email.parser import Parser
 from pathlib import Path
 
 import pytest
+from fmpy import read_model_description
+
+import ahv
 
 # What a user does first, in a folder of their own.
 USE = """
@@ -54,13 +57,12 @@ def test_the_same_fmus_give_the_same_wheel(wheel: Path, tmp_path: Path) -> None:
 
 
 def test_the_wheel_has_modules_fmus_templates_and_licences_alone(
-    wheel: Path, fmus: dict[str, Path], root: Path
+    wheel: Path, all_fmus: dict[tuple[str, str], Path], root: Path
 ) -> None:
     with zipfile.ZipFile(wheel) as archive:
         content = {name: archive.read(name) for name in archive.namelist()}
     data = {
-        "ahv.fmu": fmus["2.0"],
-        "ahv_fmi3.fmu": fmus["3.0"],
+        **{file.name: file for file in all_fmus.values()},
         "vehicle.toml": root / "src/data/vehicle.toml",
         "parker2007.toml": root / "src/data/aero/parker2007.toml",
     }
@@ -71,6 +73,15 @@ def test_the_wheel_has_modules_fmus_templates_and_licences_alone(
     licences = {f"{info}/licenses/{name}" for name in ("LICENSE-APACHE", "LICENSE-MIT")}
     described = {f"{info}/{name}" for name in ("METADATA", "RECORD", "WHEEL")}
     assert set(content) == sources | {"ahv/py.typed"} | licences | described
+
+
+def test_each_model_has_its_fmus(all_fmus: dict[tuple[str, str], Path]) -> None:
+    for (model, version), file in all_fmus.items():
+        path = ahv.fmu(version, model)  # type: ignore[arg-type]
+        assert path.read_bytes() == file.read_bytes()
+        description = read_model_description(str(path))
+        assert description.modelName == file.stem.removesuffix("_fmi3")
+        assert description.fmiVersion == version
 
 
 def test_the_wheel_needs_fmpy_and_numpy_alone(wheel: Path) -> None:
@@ -127,7 +138,8 @@ def test_types_are_complete_inside_and_known_outside(
         "fmu: Path = ahv.vehicle(ahv.template('vehicle'), fmu=ahv.fmu('3.0'))\n"
         "matrix: npt.NDArray[np.float64] = ahv.linear_model(fmu, configuration='Rigid').A\n"
         "table: npt.NDArray[np.void] = ahv.manoeuvre('doublet.csv')\n"
-        "wrong: int = ahv.fmu('4.0')\n",
+        "autopilot: Path = ahv.fmu(model='autopilot')\n"
+        "wrong: int = ahv.fmu('4.0', 'engine')\n",
         "utf-8",
     )
     mypy = [sys.executable, "-m", "mypy", "--cache-dir", str(tmp_path / "cache")]
@@ -145,7 +157,7 @@ def test_types_are_complete_inside_and_known_outside(
         check=False,
     )
     errors = [line for line in outside.stdout.splitlines() if ": error: " in line]
-    assert len(errors) == 2 and all("use.py:8" in line for line in errors), outside.stdout
+    assert len(errors) == 3 and all("use.py:9" in line for line in errors), outside.stdout
 
 
 def test_a_package_without_fmus_says_what_to_do(root: Path, tmp_path: Path) -> None:

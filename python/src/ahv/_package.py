@@ -13,23 +13,36 @@ from fmpy import extract
 
 # Filled by `cargo ahv wheel`.
 FOLDER = Path(__file__).parent / "data"
-FILES = {"2.0": "ahv.fmu", "3.0": "ahv_fmi3.fmu"}
+MODELS = {
+    "vehicle": "ahv",
+    "autopilot": "ahv_autopilot",
+    "actuator": "ahv_actuator",
+    "sensor": "ahv_sensor",
+}
+ENDINGS = {"2.0": ".fmu", "3.0": "_fmi3.fmu"}
 TEMPLATES = {"vehicle": "vehicle.toml", "coefficients": "parker2007.toml"}
 
 
-def fmu(version: Literal["2.0", "3.0"] = "2.0") -> Path:
-    """Path of the FMU in the installed package.
+def fmu(
+    version: Literal["2.0", "3.0"] = "2.0",
+    model: Literal["vehicle", "autopilot", "actuator", "sensor"] = "vehicle",
+) -> Path:
+    """Path of an FMU in the installed package.
 
     Args:
         version: of the standard, "2.0" or "3.0".
+        model: the vehicle, or a part of its control loop: "autopilot", "actuator" or "sensor".
 
     Raises:
-        ValueError: there is no FMU for this version of the standard.
+        ValueError: there is no FMU for this version of the standard, or of this model.
         FileNotFoundError: the package has no FMUs, because it was not installed from a wheel.
     """
-    if version not in FILES:
+    if version not in ENDINGS:
         raise ValueError(f'version is {version!r}; "2.0" or "3.0" is expected')
-    path = FOLDER / FILES[version]
+    if model not in MODELS:
+        names = ", ".join(f'"{name}"' for name in MODELS)
+        raise ValueError(f"model is {model!r}; one of {names} is expected")
+    path = FOLDER / f"{MODELS[model]}{ENDINGS[version]}"
     if not path.is_file():
         raise FileNotFoundError(
             f"{path} does not exist: this copy of the package has no FMUs; install the wheel "
