@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-import pytest
 from fmpy import extract
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Model, FMU3Slave
 from fmpy.model_description import ModelDescription, read_model_description
 
-from harness import REPOSITORY, Message
+from harness import Message, package_path
 
 if TYPE_CHECKING:
     from fmpy.model_description import ModelVariable
@@ -47,10 +45,7 @@ class Package3:
 
 def packaged3(folder: Path) -> Package3:
     """The FMU for FMI 3.0 beside the one under test, unzipped to `folder`."""
-    path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")).resolve()
-    path = path.with_name(f"{path.stem}_fmi3.fmu")
-    if not path.is_file():
-        pytest.fail(f"{path} does not exist: run `cargo ahv package`", pytrace=False)
+    path = package_path(version="3.0")
     extract(str(path), unzipdir=str(folder))
     return Package3(path, folder)
 

@@ -52,6 +52,11 @@ DERIVATIVES = tuple(f"der({name})" for name in STATES)
 FUEL = "fuel_mass"
 ALL_STATES, ALL_DERIVATIVES = (*STATES, FUEL), (*DERIVATIVES, f"der({FUEL})")
 CONTROLS = ("delta_e", "phi")
+# Models of the control loop: the vehicle, and the parts around it.
+PARTS = tuple(sorted(d.name for d in (REPOSITORY / "modelDescription").glob("ahv_*")))
+MODELS = ("ahv", *PARTS)
+# What a part measures, where zero is no measurement: m/s.
+MEASURED = {"V": 2390.0}
 GUSTS = ("w_gust", "u_gust")
 INPUTS = (*CONTROLS, *GUSTS)
 # Outputs that are not states: our name, the oracle's name.
@@ -113,12 +118,19 @@ class Package:
         return flight
 
 
-def packaged(folder: Path, model: str = "ahv") -> Package:
-    """The FMU under test (AHV_FMU, by default target/ahv.fmu), or one beside it, in `folder`."""
+def package_path(model: str = "ahv", version: str = "2.0") -> Path:
+    """The FMU under test (AHV_FMU, by default target/ahv.fmu), or that of a part beside it."""
     path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")).resolve()
-    path = path.with_name(path.name.replace("ahv", model, 1))
+    stem = path.stem if model == "ahv" else f"{model}{path.stem.removeprefix('ahv')}"
+    path = path.with_name(f"{stem}{'_fmi3' if version == '3.0' else ''}.fmu")
     if not path.is_file():
         pytest.fail(f"{path} does not exist: run `cargo ahv package` or set AHV_FMU", pytrace=False)
+    return path
+
+
+def packaged(folder: Path, model: str = "ahv") -> Package:
+    """The FMU of a model, unzipped to `folder`."""
+    path = package_path(model)
     extract(str(path), unzipdir=str(folder))
     return Package(path, folder)
 

@@ -21,12 +21,17 @@ REPOSITORY = HERE.parents[1]
 STEP = 0.01
 STOP = 2.0
 INPUTS = ("delta_e", "phi")
+# What a part measures, where zero is no measurement: m/s.
+MEASURED = {"V": 2390.0}
+# The parts of the control loop.
+PARTS = sorted(folder.name for folder in (REPOSITORY / "modelDescription").glob("ahv_*"))
 
 
 class System(NamedTuple):
     """How a program is compiled and run."""
 
-    binary: str
+    platform: str
+    ending: str
     compiler: tuple[str, ...]
     options: tuple[str, ...]
     runner: tuple[str, ...]
@@ -43,9 +48,9 @@ ZIG = (
 )
 ARM_LIBRARIES = "/usr/aarch64-linux-gnu"
 SYSTEMS = {
-    "linux": System("linux64/ahv.so", ("cc",), ("-ldl",), ()),
-    "windows": System("win64/ahv.dll", ("x86_64-w64-mingw32-gcc",), ("-static",), ("wine",)),
-    "arm": System("aarch64-linux/ahv.so", ZIG, ("-ldl",), ("qemu-aarch64", "-L", ARM_LIBRARIES)),
+    "linux": System("linux64", "so", ("cc",), ("-ldl",), ()),
+    "windows": System("win64", "dll", ("x86_64-w64-mingw32-gcc",), ("-static",), ("wine",)),
+    "arm": System("aarch64-linux", "so", ZIG, ("-ldl",), ("qemu-aarch64", "-L", ARM_LIBRARIES)),
 }
 OTHERS = [system for system in SYSTEMS if system != "linux"]
 CONFIGURATIONS = (1, 2, 3)
@@ -53,24 +58,28 @@ COEFFICIENT_SETS = (1, 2, 3)
 
 
 class Flights:
-    """The packaged FMU, and drivers for Linux and another system."""
+    """A packaged FMU, and drivers for Linux and another system."""
 
-    def __init__(self, folder: Path, other: str) -> None:
+    def __init__(self, folder: Path, other: str, model: str = "ahv") -> None:
         self.folder = folder
         self.other = other
-        path = os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu")
+        self.model = model
+        path = Path(os.environ.get("AHV_FMU", REPOSITORY / "target" / "ahv.fmu"))
+        path = path.with_name(path.name.replace("ahv", model, 1))
         description = fmpy.read_model_description(str(path))
         self.guid = description.guid
         variables = description.modelVariables
         names = {variable.name: variable.valueReference for variable in variables}
         outputs = [v.name for v in variables if v.causality == "output"]
-        self.parameters = [names[name] for name in ("configuration", "aero")]
-        self.references = [str(names[name]) for name in (*INPUTS, *outputs)]
+        self.parameters = [names[name] for name in ("configuration", "aero") if name in names]
+        inputs = [v.name for v in variables if v.causality == "input"]
+        self.inputs = INPUTS if model == "ahv" else inputs
+        self.references = [str(names[name]) for name in (*self.inputs, *outputs)]
         self.outputs = len(outputs)
         with zipfile.ZipFile(path) as archive:
             for system in ("linux", other):
                 parts = SYSTEMS[system]
-                archive.extract(f"binaries/{parts.binary}", folder)
+                archive.extract(self.library(system), folder)
                 self.compile(system, HERE / "driver.c", f"{system}.exe", parts.options)
         if other == "windows":
             options = ("-shared", "-ladvapi32")
@@ -81,6 +90,10 @@ class Flights:
         # No installers, no messages of wine itself.
         quiet = {"WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree,mshtml="}
         self.environment = {**os.environ, "WINEPREFIX": str(prefix), **quiet}
+
+    def library(self, system: str) -> str:
+        """The library for a system, in the package and in the folder."""
+        return f"binaries/{SYSTEMS[system].platform}/{self.model}.{SYSTEMS[system].ending}"
 
     def compile(self, system: str, source: Path, name: str, options: Sequence[str]) -> None:
         """Compiles one file."""
@@ -102,16 +115,15 @@ class Flights:
         Steps are time, length, inputs; values are those of configuration and coefficient set."""
         parts = SYSTEMS[system]
         program = [*parts.runner, str(self.folder / f"{system}.exe")]
-        library = f"binaries/{parts.binary}"
         pairs = zip(self.parameters, values, strict=False)
         settings = ",".join(f"{reference}={value}" for reference, value in pairs)
         arguments = [
-            library,
+            self.library(system),
             self.guid,
             restore,
             save,
             settings,
-            str(len(INPUTS)),
+            str(len(self.inputs)),
             *self.references,
         ]
         rows = (" ".join(struct.pack(">d", x).hex() for x in row) for row in steps)
@@ -132,12 +144,18 @@ class Flights:
 
 
 @pytest.fixture(scope="module", params=OTHERS)
-def flights(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Flights:
-    """Drivers and libraries, in a folder with a space."""
+def other(request: pytest.FixtureRequest) -> str:
+    """Another system, for which this machine has a compiler and an emulator."""
     for system in ("linux", request.param):
         for program in (SYSTEMS[system].compiler[0], *SYSTEMS[system].runner[:1]):
             assert shutil.which(program), f"{program} is missing; see `cargo ahv test`"
-    return Flights(tmp_path_factory.mktemp("two systems"), request.param)
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def flights(other: str, tmp_path_factory: pytest.TempPathFactory) -> Flights:
+    """Drivers and the vehicle's libraries, in a folder with a space."""
+    return Flights(tmp_path_factory.mktemp("two systems"), other)
 
 
 @pytest.fixture(scope="module")
@@ -198,3 +216,22 @@ def test_verif_each_system_continues_a_flight_of_the_other(
         flights.fly("linux", third, restore="second.state"),
     ]
     assert np.array_equal(np.vstack(flown), on_linux)
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_verif_every_part_computes_the_bits_of_linux_and_continues_its_flight(
+    part: str, other: str, tmp_path: Path
+) -> None:
+    """Uneven steps with random inputs, half on each system; and an output has moved."""
+    flights = Flights(tmp_path, other, part)
+    random = np.random.default_rng(20150181)
+    lengths = random.uniform(0.002, 0.03, 60)
+    times = np.concatenate([[0.0], np.cumsum(lengths)[:-1]])
+    inputs = random.uniform(-0.05, 0.05, (lengths.size, len(flights.inputs)))
+    inputs += [MEASURED.get(name, 0.0) for name in flights.inputs]
+    steps = np.column_stack([times, lengths, inputs])
+    on_linux = flights.fly("linux", steps)
+    assert np.array_equal(flights.fly(other, steps), on_linux)
+    assert (on_linux[0] != on_linux[-1]).any()
+    flights.fly("linux", steps[:30], save="half.state")
+    assert np.array_equal(flights.fly(other, steps[30:], restore="half.state"), on_linux[30:])

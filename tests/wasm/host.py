@@ -72,13 +72,18 @@ class Host:
         return answer
 
     def instantiate(
-        self, interface: str, name: str = "ahv", token: str | None = None, *flags: Any
+        self,
+        interface: str,
+        name: str = "ahv",
+        token: str | None = None,
+        *flags: Any,
+        resources: str = "",
     ) -> Instance | None:
         """An instance for `co-simulation` or `model-exchange`, if the component makes one."""
         token = self.package.description.guid if token is None else token
         static = f"[static]{interface}-instance.instantiate-{interface}"
         extra = flags or ((False, False, []) if interface == "co-simulation" else ())
-        made = self.run(interface, static, name, token, "", False, False, *extra)
+        made = self.run(interface, static, name, token, resources, False, False, *extra)
         return made and Instance(self, interface, made)
 
     def flight(self, interface: str = "co-simulation", **start: Any) -> Instance:

@@ -19,23 +19,13 @@ from harness import (
     OUTPUTS,
     Package,
 )
-from host import KINDS, PACKAGE, TIME, Host, Refused
+from host import KINDS, TIME, Host, Refused
 
 # Of each of the nine flights.
 STEPS = 1200
 # s, at which explicit Euler lets no flexible mode grow.
 EULER_STEP = 2e-4
 FLIGHTS = [(c, a) for c in CONFIGURATIONS for a in range(1, 1 + len(AERO_SETS))]
-
-
-def test_verif_the_component_has_the_interfaces_of_the_draft_and_needs_callbacks_alone(
-    host: Host,
-) -> None:
-    """No clock, no file, no random number: a host has to provide the callbacks and nothing else."""
-    assert set(host.imports) == {PACKAGE.format(name) for name in ("types", "callbacks")}
-    names = ("common", "co-simulation", "model-exchange")
-    assert set(host.exports) == {PACKAGE.format(name) for name in names}
-    assert host.run("common", "get-version") == "3.0"
 
 
 @pytest.mark.parametrize(("configuration", "aero"), FLIGHTS)
