@@ -59,17 +59,17 @@ impl SurfaceMeans {
         for point in points {
             let (weight, x) = (point.weight / total, point.x);
             for (i, shape) in shapes.iter().enumerate() {
-                phi[i] = shape.w_at(&point);
-                slope[i] = shape.slope_at(&point);
+                [phi[i], slope[i]] = shape.at(&point);
             }
             mean.x += weight * x;
             mean.xx += weight * x * x;
-            for i in 0..shapes.len() {
+            // Zeros of modes that do not exist included: loops of fixed length are unrolled.
+            for i in 0..MODES {
                 mean.phi[i] += weight * phi[i];
                 mean.slope[i] += weight * slope[i];
                 mean.x_phi[i] += weight * x * phi[i];
                 mean.x_slope[i] += weight * x * slope[i];
-                for k in 0..shapes.len() {
+                for k in 0..MODES {
                     mean.phi_phi[i][k] += weight * phi[i] * phi[k];
                     mean.phi_slope[i][k] += weight * phi[i] * slope[k];
                 }

@@ -21,6 +21,7 @@
 use super::mass_correction::MassCorrection;
 use super::tanks::{SloshingTank, full_mass_kg_per_m, propellant_kg_per_m};
 use crate::data::VehicleData;
+use multiversion::multiversion;
 
 /// Sloshing mass on a spring and a damper at a node; it moves vertically.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -207,23 +208,7 @@ impl Beam {
 
     /// `product = M_b displacement`; M_b is the consistent mass matrix of the density.
     pub fn density_times(&self, displacement: &[f64], product: &mut [f64]) {
-        let l = self.element_m;
-        let [mut force, mut moment] = [0.0, 0.0];
-        let (nodes, _) = displacement.as_chunks::<2>();
-        let (out, _) = product.as_chunks_mut::<2>();
-        for ((ends, density), out) in nodes.windows(2).zip(&self.density).zip(out) {
-            let scale = density * l / 420.0;
-            let [[w0, slope0], [w1, slope1]] = [ends[0], ends[1]];
-            let (t0, t1) = (l * slope0, l * slope1);
-            *out = [
-                force + scale * (156.0 * w0 + 22.0 * t0 + 54.0 * w1 - 13.0 * t1),
-                moment + scale * l * (22.0 * w0 + 4.0 * t0 + 13.0 * w1 - 3.0 * t1),
-            ];
-            force = scale * (54.0 * w0 + 13.0 * t0 + 156.0 * w1 - 22.0 * t1);
-            moment = -scale * l * (13.0 * w0 + 3.0 * t0 + 22.0 * w1 - 4.0 * t1);
-        }
-        let tail = 2 * self.elements();
-        product[tail..].copy_from_slice(&[force, moment]);
+        density_times(self.element_m, &self.density, displacement, product);
     }
 
     /// The displacement under a self-equilibrated load, with `w_0 = theta_0 = 0`.
@@ -248,6 +233,28 @@ impl Beam {
         }
         let tail = 2 * self.elements();
         displacement[tail..].copy_from_slice(&[w, slope]);
+    }
+}
+
+/// [`Beam::density_times`]: the inertia of each element at its first node, then that at its second. The
+/// elements of either loop do not wait for each other.
+#[multiversion(targets("x86_64+avx"))]
+fn density_times(l: f64, density: &[f64], displacement: &[f64], product: &mut [f64]) {
+    let (nodes, _) = displacement.as_chunks::<2>();
+    let (product, _) = product.as_chunks_mut::<2>();
+    let ends = || nodes.iter().zip(&nodes[1..]).zip(density);
+    for (out, (([w0, slope0], [w1, slope1]), density)) in product.iter_mut().zip(ends()) {
+        let (scale, t0, t1) = (density * l / 420.0, l * slope0, l * slope1);
+        *out = [
+            scale * (156.0 * w0 + 22.0 * t0 + 54.0 * w1 - 13.0 * t1),
+            scale * l * (22.0 * w0 + 4.0 * t0 + 13.0 * w1 - 3.0 * t1),
+        ];
+    }
+    product[density.len()] = [0.0; 2];
+    for (out, (([w0, slope0], [w1, slope1]), density)) in product[1..].iter_mut().zip(ends()) {
+        let (scale, t0, t1) = (density * l / 420.0, l * slope0, l * slope1);
+        out[0] += scale * (54.0 * w0 + 13.0 * t0 + 156.0 * w1 - 22.0 * t1);
+        out[1] += -scale * l * (13.0 * w0 + 3.0 * t0 + 22.0 * w1 - 4.0 * t1);
     }
 }
 

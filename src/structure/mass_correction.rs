@@ -64,9 +64,12 @@ impl MassCorrection {
     /// Adds `(delta (h r^T + r h^T) + j r r^T) displacement` to a product.
     pub fn add_product(&self, displacement: &[f64], product: &mut [f64]) {
         let RigidMotion { translation, rotation, .. } = &self.motion;
-        let mean =
-            |measure: &[f64]| -> f64 { measure.iter().zip(displacement).map(|(m, u)| m * u).sum() };
-        let (translated, rotated) = (mean(translation), mean(rotation));
+        let (mut translated, mut rotated) = (0.0, 0.0);
+        // Both sums in one loop: neither waits for the other.
+        for ((h, r), u) in translation.iter().zip(rotation).zip(displacement) {
+            translated += h * u;
+            rotated += r * u;
+        }
         let along_h = self.first * rotated;
         let along_r = self.first * translated + self.second * rotated;
         for ((entry, h), r) in product.iter_mut().zip(translation).zip(rotation) {

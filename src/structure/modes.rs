@@ -8,6 +8,7 @@
 mod align;
 mod jacobi;
 mod lanczos;
+mod vectors;
 
 use super::beam::{Beam, Oscillator};
 use super::shape::{Point, Shape};
@@ -51,10 +52,26 @@ impl Modes {
     /// # Panics
     /// With more than [`SLOSH`] oscillators.
     pub fn solve(beam: &Beam, oscillators: &[Oscillator]) -> Result<Self, Error> {
+        Self::sorted(beam, oscillators, lanczos::lowest_modes)
+    }
+
+    /// The same, with shapes to nine digits and frequencies to thirteen, in two thirds of the time.
+    ///
+    /// # Panics
+    /// With more than [`SLOSH`] oscillators.
+    pub fn nearly(beam: &Beam, oscillators: &[Oscillator]) -> Result<Self, Error> {
+        Self::sorted(beam, oscillators, lanczos::nearly_lowest_modes)
+    }
+
+    fn sorted(
+        beam: &Beam,
+        oscillators: &[Oscillator],
+        lowest: fn(&lanczos::Structure, usize) -> Result<Vec<lanczos::EigenPair>, Error>,
+    ) -> Result<Self, Error> {
         assert!(oscillators.len() <= SLOSH, "a slosh mode for each of {SLOSH} sloshing masses");
         let count = FLEXIBLE + oscillators.len();
         let structure = lanczos::Structure { beam, oscillators };
-        let pairs = lanczos::lowest_modes(&structure, count)?;
+        let pairs = lowest(&structure, count)?;
 
         let sloshing_share = |displacement: &[f64]| -> f64 {
             let masses = &displacement[beam.unknowns()..];

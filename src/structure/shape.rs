@@ -33,19 +33,20 @@ impl Shape {
 
     /// Deflection at a point.
     pub fn w_at(&self, point: &Point) -> f64 {
-        self.combine(point.element, &point.w)
+        self.at(point)[0]
     }
 
     /// Slope at a point.
     pub fn slope_at(&self, point: &Point) -> f64 {
-        self.combine(point.element, &point.slope)
+        self.at(point)[1]
     }
 
-    fn combine(&self, e: usize, weights: &[f64; 4]) -> f64 {
-        weights[0] * self.w[e]
-            + weights[1] * self.slope[e]
-            + weights[2] * self.w[e + 1]
-            + weights[3] * self.slope[e + 1]
+    /// Deflection and slope at a point.
+    #[inline]
+    pub fn at(&self, point: &Point) -> [f64; 2] {
+        let e = point.element;
+        let ([w0, w1], [t0, t1]) = ([self.w[e], self.w[e + 1]], [self.slope[e], self.slope[e + 1]]);
+        [&point.w, &point.slope].map(|by| by[0] * w0 + by[1] * t0 + by[2] * w1 + by[3] * t1)
     }
 }
 

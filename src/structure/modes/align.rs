@@ -11,6 +11,7 @@
 //! Newton's iteration X <- (X + X^-T)/2 from X = O converges to it quadratically (Higham, Functions of
 //! Matrices, 2008, section 8.3).
 
+use super::vectors::dot;
 use super::{FLEXIBLE, MODES, Modes, SLOSH, lanczos};
 use crate::error::Error;
 use crate::structure::beam::{Beam, Oscillator};
@@ -53,7 +54,7 @@ impl Modes {
         for (i, shape) in self.displacements(oscillators).iter().enumerate() {
             let load = structure.mass_times(shape);
             for (k, displacement) in displacements.iter().enumerate() {
-                products[i][k] = lanczos::dot(&load, displacement) / self.modal_mass[i];
+                products[i][k] = dot(&load, displacement) / self.modal_mass[i];
             }
         }
         products
@@ -74,21 +75,21 @@ impl Modes {
     ) -> Result<Self, Error> {
         let count = self.count;
         let (reference, others) = reference;
-        let [own, other] = [oscillators, others].map(|o| o.iter().map(|o| o.mass).sum::<f64>());
+        let [liquid, other] = [oscillators, others].map(|o| o.iter().map(|o| o.mass).sum::<f64>());
         // Both masses are zero without liquid.
-        let ratio = own / other.max(f64::MIN_POSITIVE);
+        let ratio = liquid / other.max(f64::MIN_POSITIVE);
         let mut target = reference.clone();
         for shape in target.shape.iter_mut().skip(FLEXIBLE) {
             shape.w.iter_mut().chain(&mut shape.slope).for_each(|part| *part *= ratio);
         }
-        let target = target.displacements(oscillators);
-        let products = self.products(beam, oscillators, &target);
         let structure = lanczos::Structure { beam, oscillators };
+        let own = self.displacements(oscillators);
         let mut overlap = Matrix::identity();
-        for (k, target) in target.iter().enumerate() {
-            let norm = lanczos::dot(target, &structure.mass_times(target)).sqrt();
-            for i in 0..count {
-                overlap[(i, k)] = products[i][k] * self.modal_mass[i].sqrt() / norm;
+        for (k, target) in target.displacements(oscillators).iter().enumerate() {
+            let load = structure.mass_times(target);
+            let norm = dot(target, &load).sqrt();
+            for (i, own) in own.iter().enumerate() {
+                overlap[(i, k)] = dot(own, &load) / (self.modal_mass[i].sqrt() * norm);
             }
         }
         let mut rotation = polar_factor(overlap).ok_or(Error::ModesNotFollowed)?;

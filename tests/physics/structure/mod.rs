@@ -3,6 +3,7 @@
 mod beam;
 mod damping;
 mod modes;
+mod nearly;
 mod reference;
 mod tanks;
 mod uniform_beam;

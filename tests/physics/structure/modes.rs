@@ -23,7 +23,7 @@ fn solve(beam: &Beam, oscillators: &[Oscillator]) -> Modes {
 
 /// Every configuration of the vehicle that must work: fillings and sloshing frequencies, rad/s, 0
 /// for the tank's own; 25.3 falls on the first flexible mode.
-fn configurations() -> Vec<(Beam, Vec<Oscillator>)> {
+pub(super) fn configurations() -> Vec<(Beam, Vec<Oscillator>)> {
     let mut all =
         vec![(Beam::even(&vehicle(), 1.0), vec![]), (Beam::even(&vehicle(), 0.0), vec![])];
     for fuel in [0.0, 0.5, 1.0] {
