@@ -1,4 +1,4 @@
-//! Dual numbers, and integration of x' = f(t, x). Independent of the vehicle.
+//! Dual numbers, integration of x' = f(t, x), and interpolation. Independent of the vehicle.
 //!
 //! | file | what it holds |
 //! |---|---|
@@ -7,8 +7,10 @@
 //! | `dop853` | explicit Runge-Kutta method of order 8 |
 //! | `exponential` | exponential Runge-Kutta method with a frozen linear part |
 //! | `decoupling`, `blocks` | its block diagonalisation and phi functions |
+//! | `chebyshev` | polynomial interpolation |
 
 mod blocks;
+mod chebyshev;
 mod decoupling;
 mod dop853;
 mod exponential;
@@ -16,6 +18,7 @@ mod integrate;
 mod scalar;
 
 pub use blocks::{Blocks, MatrixFunction, PHIS, phis};
+pub use chebyshev::Chebyshev;
 pub use decoupling::Decoupling;
 pub use dop853::DOP853;
 pub use exponential::Exponential;

@@ -1,4 +1,5 @@
 //! Methods on problems with known answers.
 
+mod chebyshev;
 mod exponential;
 mod integrate;
