@@ -28,29 +28,33 @@ impl Body {
     /// # Errors
     /// Those of [`VehicleDefinition::structure`]; [`Error::Modes`] if the modes cannot be found.
     pub fn new(definition: &VehicleDefinition) -> Result<Self, Error> {
+        Self::with_modes(definition, Modes::solve)
+    }
+
+    /// The same, with the modes in the basis nearest to those of a reference at another fuel level, to nine
+    /// digits ([`Modes::nearly`]).
+    ///
+    /// # Errors
+    /// Those of [`Body::new`] and [`Modes::aligned_to`].
+    pub fn aligned(definition: &VehicleDefinition, reference: &Self) -> Result<Self, Error> {
+        let reference = (&reference.modes, &reference.oscillators[..]);
+        Self::with_modes(definition, |beam, oscillators| {
+            Modes::nearly(beam, oscillators)?.aligned_to(beam, oscillators, reference)
+        })
+    }
+
+    fn with_modes(
+        definition: &VehicleDefinition,
+        modes: impl FnOnce(&Beam, &[Oscillator]) -> Result<Modes, Error>,
+    ) -> Result<Self, Error> {
         let (beam, oscillators) = definition.structure()?;
         let properties = beam.mass_properties(&oscillators);
         let modes = match definition.options.configuration {
             Configuration::Rigid => Modes::default(),
-            _ => Modes::solve(&beam, &oscillators)?,
+            _ => modes(&beam, &oscillators)?,
         };
         let strips = StripIntegrals::new(&beam, &modes, &definition.vehicle.geometry);
         Ok(Self { beam, oscillators, modes, strips, properties })
-    }
-
-    /// The same body with its modes in the basis nearest to those of another fuel level.
-    ///
-    /// # Errors
-    /// Those of [`Modes::aligned_to`].
-    pub fn aligned_to(
-        mut self,
-        definition: &VehicleDefinition,
-        reference: &Self,
-    ) -> Result<Self, Error> {
-        let reference = (&reference.modes, &reference.oscillators[..]);
-        self.modes = self.modes.aligned_to(&self.beam, &self.oscillators, reference)?;
-        self.strips = StripIntegrals::new(&self.beam, &self.modes, &definition.vehicle.geometry);
-        Ok(self)
     }
 
     /// Displacement of the beam and of each sloshing mass, for each mode.

@@ -213,7 +213,7 @@ fn verif_sensors_show_the_motion_of_their_place_while_fuel_burns() {
         // The shapes of the start are those of its level.
         let level = VehicleDefinition::new(&data(), &case.options).at(0.8);
         let full = Body::new(&VehicleDefinition::new(&data(), &case.options)).unwrap();
-        case.shapes = Body::new(&level).unwrap().aligned_to(&level, &full).unwrap().displacements();
+        case.shapes = Body::aligned(&level, &full).unwrap().displacements();
         assert_shown(&case, GUSTS[3], [CREEP_ANGLE, CREEP_LOAD_FACTOR]);
     }
 }

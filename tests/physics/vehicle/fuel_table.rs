@@ -16,7 +16,7 @@ use nalgebra::{Matrix5, SymmetricEigen};
 /// to slosh and the damping where two modes cross need the rest.
 const INTERPOLATED: f64 = 6e-5;
 /// A kind that is no larger is there by rounding: without liquid no mode moves the body rigidly.
-const NOTHING: f64 = 1e-9;
+pub(super) const NOTHING: f64 = 1e-9;
 /// Of a frequency between two levels; that of the liquid in nearly empty tanks needs half of it.
 const FREQUENCY: f64 = 1e-5;
 /// Of a pole of the vehicle between two levels, over its frequency and 1 rad/s.
@@ -28,7 +28,7 @@ const SAMPLES: usize = 24;
 
 /// Places of the coefficients of each kind in [`Airframe::to_row`], without the turning of the shapes, which
 /// a body at one level does not have: an airframe whose numbers are their places tells them.
-fn kinds() -> Vec<Vec<usize>> {
+pub(super) fn kinds() -> Vec<Vec<usize>> {
     let Airframe { mass, inertia, mass_centre, elastic, .. } = places();
     let Airframe { stiffness, damping, floor, slosh, imu, probe, depth, .. } = places();
     let mut kinds = vec![vec![mass], vec![inertia], vec![mass_centre]];
@@ -87,7 +87,7 @@ fn verif_between_the_levels_every_coefficient_is_what_a_direct_solution_gives() 
         let (burn, start) = (vehicle.fuel_table.as_ref().unwrap(), Body::new(&definition).unwrap());
         for fuel_fraction in fractions(&options) {
             let level = definition.at(fuel_fraction);
-            let direct = Body::new(&level).unwrap().aligned_to(&level, &start).unwrap();
+            let direct = Body::aligned(&level, &start).unwrap();
             let direct = direct.airframe(&level).unwrap().to_row();
             let fuel = vehicle.fuel * fuel_fraction / options.fuel_fraction;
             let between = burn.airframe(fuel).to_row();

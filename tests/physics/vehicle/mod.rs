@@ -3,4 +3,5 @@
 mod body;
 mod edited;
 mod factors;
+mod fuel_levels;
 mod fuel_table;
