@@ -134,7 +134,7 @@ pub struct Bench {
 pub enum BenchPart {
     /// Error against time, compared with SUNDIALS and SciPy
     Precision,
-    /// Instructions of a right-hand side and of a step
+    /// Instructions of a right-hand side, of a step, and of a start with fuel_burn
     Instructions,
     /// Steps in FMPy, compared with empty steps and a PythonFMU
     Masters,
@@ -151,4 +151,5 @@ pub enum Probe {
     Rates,
     Outputs,
     Steps,
+    Burning,
 }

@@ -6,6 +6,7 @@ use super::report::Report;
 use super::timing::Spread;
 use crate::cli::Probe;
 use crate::methods::Law;
+use ahv::flight::Setup;
 use ahv_tool::cli::Set;
 use ahv_tool::trim::flight;
 use ahv_tool::workspace::works;
@@ -17,12 +18,16 @@ use std::process::Command;
 
 /// Calls of a probe; a run with twice as many gives their cost without start-up.
 const CALLS: usize = 1000;
+/// The same of a probe that starts flights.
+const STARTS: usize = 3;
 /// Steps of a flight in the probe `steps`.
 const STEPS: usize = 100;
 
 /// Runs a probe many times, under callgrind.
 pub fn probe(probe: Probe, calls: usize) -> Result<()> {
     let mut flight = flight(&Set { settings: Vec::new() })?;
+    let mut burning = Setup::new()?;
+    burning.parameters.options.fuel_burn = true;
     let (vehicle, trim) = (flight.vehicle(), flight.trim());
     let (vehicle, trim) = (vehicle.clone(), *trim);
     let start = flight.snapshot();
@@ -41,6 +46,11 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
             for _ in 0..calls / STEPS {
                 flight.rewind(&start);
                 fly(&mut flight, STEPS, &Law::OPEN)?;
+            }
+        }
+        Probe::Burning => {
+            for _ in 0..calls {
+                black_box(burning.fly()?);
             }
         }
     }
@@ -64,10 +74,10 @@ fn count(program: &Path, arguments: &[&str]) -> Result<f64> {
     Ok(total.context("callgrind wrote no totals")?.trim().parse()?)
 }
 
-/// Instructions of one call: `run` counts those of a run with this many.
-fn per_call(run: impl Fn(&str) -> Result<f64>) -> Result<Spread> {
+/// Instructions of one of some calls: `run` counts those of a run with so many.
+fn per_call(calls: usize, run: impl Fn(&str) -> Result<f64>) -> Result<Spread> {
     let of = |calls: usize| run(&calls.to_string());
-    Ok(Spread::exact(((of(2 * CALLS)? - of(CALLS)?) / CALLS as f64).round()))
+    Ok(Spread::exact(((of(2 * calls)? - of(calls)?) / calls as f64).round()))
 }
 
 /// A program that takes samples of the autopilot: its library has the functions of the vehicle's, so that no
@@ -96,16 +106,17 @@ pub fn measure(_: &Effort, report: &mut Report) -> Result<()> {
     }
     std::fs::create_dir_all(target().join("bench"))?;
     let own = std::env::current_exe()?;
-    for (probe, what, aim) in [
-        ("rates", "right-hand side", "aim 750"),
-        ("outputs", "right-hand side and all outputs", "sensors included"),
-        ("steps", "step of 10 ms at 1e-8, in a doublet", "aim 8,000"),
+    for (probe, calls, what, aim) in [
+        ("rates", CALLS, "right-hand side", "aim 750"),
+        ("outputs", CALLS, "right-hand side and all outputs", "sensors included"),
+        ("steps", CALLS, "step of 10 ms at 1e-8, in a doublet", "aim 8,000"),
+        ("burning", STARTS, "start with fuel_burn", "modes at 17 fuel levels"),
     ] {
-        let probe = |calls: &str| count(&own, &["bench", "--probe", probe, "--calls", calls]);
-        report.line(what, per_call(probe)?, "instructions", aim);
+        let run = |calls: &str| count(&own, &["bench", "--probe", probe, "--calls", calls]);
+        report.line(what, per_call(calls, run)?, "instructions", aim);
     }
     let sampler = sampler()?;
-    let sample = per_call(|calls| count(&sampler, &[calls]))?;
+    let sample = per_call(CALLS, |calls| count(&sampler, &[calls]))?;
     report.line("autopilot, step of 10 ms", sample, "instructions", "inputs and outputs included");
     Ok(())
 }

@@ -8,7 +8,7 @@ use ahv::data::Data;
 use ahv::dynamics::trim::trim;
 use ahv::flight::{DEFAULT_TOLERANCE, Setup};
 use ahv::structure::Modes;
-use ahv::vehicle::structure;
+use ahv::vehicle::{Configuration, structure};
 use ahv_tool::fmu::Fmu;
 use ahv_tool::master::Instance;
 use ahv_tool::modes::eigenproblem_json;
@@ -43,6 +43,15 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     report.line("start: initialise (modes, trim)", initialised, "ms", "");
     report.line("start, all", all, "ms", "aim 3");
 
+    for (configuration, name) in
+        [(Configuration::EvenMassBeam, "EvenMassBeam"), (Configuration::SloshBeam, "SloshBeam")]
+    {
+        let mut burning = Setup::new()?;
+        burning.parameters.options.configuration = configuration;
+        burning.parameters.options.fuel_burn = true;
+        let time = seconds(effort, || burning.fly()).scaled(1e3);
+        report.line(format!("initialise with fuel_burn, {name}"), time, "ms", "aim 10");
+    }
     let setup = Setup::new()?;
     let flight = setup.fly()?;
     let options = setup.parameters.options;
