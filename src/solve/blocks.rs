@@ -8,7 +8,7 @@
 //! z (a + b z) = -p t^2 b + (a + s t b) z
 //! ```
 //!
-//! phi_4 comes from its Taylor series by Horner's rule, phi_3 to phi_1 from the recurrence (Hochbruck,
+//! The phi_k of the largest k comes from its Taylor series by Horner's rule, the others from the recurrence (Hochbruck,
 //! Ostermann, Exponential integrators, Acta Numerica 19, 2010, section 2.1). Test:
 //! `verif_the_functions_are_those_of_the_exponential`.
 
@@ -100,35 +100,48 @@ impl<const N: usize> MatrixFunction<N> {
     }
 }
 
-/// Number of functions that [`phis`] returns.
-pub const PHIS: usize = 4;
 /// Size below which a term of the Taylor series is dropped.
 const NEGLIGIBLE: f64 = 1e-18;
 
-/// phi_k(t L) for k = 1 to 4. The Taylor series loses no digits to cancellation for t |L| below about 4.
+/// phi_k(t L) for k = 1 to K. The Taylor series loses no digits to cancellation for t |L| below about 4.
 #[inline(always)]
-pub fn phis<const N: usize>(blocks: &Blocks<N>, t: f64) -> [MatrixFunction<N>; PHIS] {
+pub fn phis<const N: usize, const K: usize>(blocks: &Blocks<N>, t: f64) -> [MatrixFunction<N>; K] {
     let (trace, determinant) = (blocks.trace.map(|s| s * t), blocks.determinant.map(|p| p * t * t));
     // factor z f + shift, in multiples of 1 and z = t L.
     let climb = |f: &MatrixFunction<N>, factor: f64, shift: f64| MatrixFunction {
         identity: std::array::from_fn(|i| shift - factor * determinant[i] * f.linear[i]),
         linear: std::array::from_fn(|i| factor * (f.identity[i] + trace[i] * f.linear[i])),
     };
-    let (size, mut term, mut last) = (t * blocks.spectral_radius, 1.0, PHIS);
+    let (size, mut term, mut last) = (t * blocks.spectral_radius, 1.0, K);
     while term > NEGLIGIBLE {
         last += 1;
         term *= size / last as f64;
     }
-    // 4! phi_4 = 1 + z/5 (1 + z/6 (1 + ...)).
-    let mut fourth = MatrixFunction { identity: [1.0; N], linear: [0.0; N] };
-    for n in (PHIS + 1..=last).rev() {
-        fourth = climb(&fourth, 1.0 / n as f64, 1.0);
+    // K! phi_K = 1 + z/(K+1) (1 + z/(K+2) (1 + ...)).
+    let mut highest = MatrixFunction { identity: [1.0; N], linear: [0.0; N] };
+    for n in (K + 1..=last).rev() {
+        highest = climb(&highest, 1.0 / n as f64, 1.0);
     }
-    let third = climb(&fourth, 1.0 / 24.0, 1.0 / 6.0);
-    let second = climb(&third, 1.0, 0.5);
-    let first = climb(&second, 1.0, 1.0);
-    [first, second, third, fourth.scaled(1.0 / 24.0)].map(|mut phi| {
+    let reciprocals = const { reciprocal_factorials::<K>() };
+    let mut phis = [highest; K];
+    for k in (1..K).rev() {
+        let factor = if k + 1 == K { reciprocals[k] } else { 1.0 };
+        phis[k - 1] = climb(&phis[k], factor, reciprocals[k - 1]);
+    }
+    phis[K - 1] = highest.scaled(reciprocals[K - 1]);
+    phis.map(|mut phi| {
         phi.linear = phi.linear.map(|multiple| multiple * t);
         phi
     })
+}
+
+/// 1/k! for k = 1 to K.
+const fn reciprocal_factorials<const K: usize>() -> [f64; K] {
+    let (mut reciprocals, mut factorial, mut k) = ([1.0; K], 1.0, 1);
+    while k <= K {
+        factorial *= k as f64;
+        reciprocals[k - 1] = 1.0 / factorial;
+        k += 1;
+    }
+    reciprocals
 }

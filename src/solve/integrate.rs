@@ -65,8 +65,23 @@ pub struct Trial<const N: usize> {
     pub slope: Option<[f64; N]>,
     /// Error over the tolerance.
     pub error: f64,
-    /// Power of h with which the error falls.
-    pub order: i32,
+    /// Length that the next step should have, over that of this one.
+    pub factor: f64,
+}
+
+/// [`Trial::factor`] of a step whose error falls with h^order. NaN counts as an infinite error.
+#[inline(always)]
+pub fn step_factor(error: f64, order: i32) -> f64 {
+    let [least, largest] = STEP_FACTORS;
+    // Most steps are this accurate: they need no power.
+    let negligible: f64 = (0..order).map(|_| SAFETY / largest).product();
+    if error < negligible {
+        largest
+    } else if error.is_finite() {
+        (SAFETY * libm::pow(error, -1.0 / f64::from(order))).clamp(least, largest)
+    } else {
+        least
+    }
 }
 
 /// A trial step.
@@ -203,16 +218,7 @@ impl Integrator {
             }
             let tolerance = self.tolerance;
             let trial = method.trial(&Attempt { system, x, slope: &slope, t, h, tolerance });
-            let error = trial.error;
-            // NaN counts as an infinite error.
-            let factor = if error == 0.0 {
-                STEP_FACTORS[1]
-            } else if error.is_finite() {
-                let exponent = -1.0 / f64::from(trial.order);
-                (SAFETY * libm::pow(error, exponent)).clamp(STEP_FACTORS[0], STEP_FACTORS[1])
-            } else {
-                STEP_FACTORS[0]
-            };
+            let Trial { error, factor, .. } = trial;
             let wanted = h * factor;
             if error.is_nan() || error > 1.0 {
                 self.proposal = wanted;
@@ -262,7 +268,7 @@ impl<const N: usize, const STAGES: usize> Method<N> for &Tableau<STAGES> {
         };
         // No stage has evaluated f at `next`.
         let error = if attempt.system.in_domain(&next) { error } else { f64::INFINITY };
-        Trial { next, slope: None, error, order: self.error_order }
+        Trial { next, slope: None, error, factor: step_factor(error, self.error_order) }
     }
 }
 

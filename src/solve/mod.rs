@@ -17,10 +17,12 @@ mod exponential;
 mod integrate;
 mod scalar;
 
-pub use blocks::{Blocks, MatrixFunction, PHIS, phis};
+pub use blocks::{Blocks, MatrixFunction, phis};
 pub use chebyshev::Chebyshev;
 pub use decoupling::Decoupling;
 pub use dop853::DOP853;
 pub use exponential::Exponential;
-pub use integrate::{Attempt, Integrator, MAX_TRIALS, Method, Outcome, System, Tableau, Trial};
+pub use integrate::{
+    Attempt, Integrator, MAX_TRIALS, Method, Outcome, System, Tableau, Trial, step_factor,
+};
 pub use scalar::{Dual, Over, Scalar};

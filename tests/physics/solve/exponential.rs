@@ -6,6 +6,7 @@ use ahv::solve::{
     phis,
 };
 use nalgebra::{DMatrix, Matrix4, SMatrix, SVector, Vector4};
+use std::cell::Cell;
 
 /// Two slow states around an oscillator, of which the first is driven by it; states 1 and 2 are the
 /// fast ones.
@@ -48,26 +49,27 @@ fn verif_the_functions_are_those_of_the_exponential() {
             _ => 0.0,
         });
         for t in [1e-6, 0.01, 0.3] {
-            let l = dense(&blocks);
-            // phi_k = z phi_(k+1) + 1/k!, down to the exponential.
-            let functions = phis(&blocks, t).map(|f| {
-                Matrix4::from_diagonal(&f.identity.into())
-                    + Matrix4::from_diagonal(&f.linear.into()) * l
-            });
-            let mut below = series(l * t);
-            let mut factorial = 1.0;
-            for (k, phi) in functions.iter().enumerate() {
-                factorial *= k.max(1) as f64;
-                let recurred = l * t * phi + Matrix4::identity() / factorial;
-                // The entries differ in size by the frequency.
-                let scale = below.amax();
-                assert!(
-                    (recurred - below).amax() < 1e-14 * scale,
-                    "phi_{k}, {t} s: {recurred} {below}"
-                );
-                below = *phi;
-            }
+            recur::<4>(&blocks, t);
+            recur::<6>(&blocks, t);
         }
+    }
+}
+
+/// phi_k = z phi_(k+1) + 1/k!, down to the exponential, for the first K functions.
+fn recur<const K: usize>(blocks: &Blocks<4>, t: f64) {
+    let l = dense(blocks);
+    let functions = phis::<4, K>(blocks, t).map(|f| {
+        Matrix4::from_diagonal(&f.identity.into()) + Matrix4::from_diagonal(&f.linear.into()) * l
+    });
+    let mut below = series(l * t);
+    let mut factorial = 1.0;
+    for (k, phi) in functions.iter().enumerate() {
+        factorial *= k.max(1) as f64;
+        let recurred = l * t * phi + Matrix4::identity() / factorial;
+        // The entries differ in size by the frequency.
+        let scale = below.amax();
+        assert!((recurred - below).amax() < 1e-14 * scale, "phi_{k}, {t} s: {recurred} {below}");
+        below = *phi;
     }
 }
 
@@ -110,34 +112,88 @@ fn tried(
     method.trial(&Attempt { system, x, slope, t, h, tolerance })
 }
 
-/// The state after 1 s in equal steps, whatever their error: none is below a tolerance of zero, so that
-/// none ends early; all are below a huge one.
+/// A system that counts its right-hand sides.
+struct Counted<'a, S> {
+    system: &'a S,
+    calls: Cell<usize>,
+}
+
+impl<S: System<4>> System<4> for Counted<'_, S> {
+    fn derivatives(&self, t: f64, x: &[f64; 4]) -> [f64; 4] {
+        self.calls.set(self.calls.get() + 1);
+        self.system.derivatives(t, x)
+    }
+    fn holds(&self, _: f64, _: &[f64; 4]) -> bool {
+        true
+    }
+    fn nominal(&self) -> &[f64; 4] {
+        self.system.nominal()
+    }
+}
+
+/// Rungs of the method, by the right-hand sides of a step that ends there.
+const EARLY: usize = 2;
+const WHOLE: usize = 5;
+const FINE: usize = 10;
+
+/// One step that ends at a given rung, whatever its error: at the first for a huge tolerance, at the second for none,
+/// at the third for one which the second misses by less than it can gain.
+fn forced_step(
+    method: &mut impl Method<4>,
+    system: &impl System<4>,
+    start: [&[f64; 4]; 2],
+    step: [f64; 2],
+    rung: usize,
+) -> Trial<4> {
+    let tolerances = match rung {
+        EARLY => 9..10,
+        WHOLE => -400..-399,
+        _ => -40..9,
+    };
+    tolerances
+        .rev()
+        .find_map(|digits| {
+            let counted = Counted { system, calls: Cell::new(0) };
+            let trial = tried(method, &counted, start, step, 10.0_f64.powi(digits));
+            (counted.calls.get() == rung).then_some(trial)
+        })
+        .unwrap_or_else(|| panic!("no tolerance ends a step at {rung} right-hand sides"))
+}
+
+/// The state after 1 s in equal steps that end at a given rung.
 fn forced(
     method: &mut impl Method<4>,
     system: &impl System<4>,
     steps: u32,
-    tolerance: f64,
+    rung: usize,
 ) -> [f64; 4] {
     let mut x = [0.3, 1.0, 2.0, 0.0];
     for step in 0..steps {
         let [start, end] = [step, step + 1].map(|i| f64::from(i) / f64::from(steps));
         let slope = system.derivatives(start, &x);
-        x = tried(method, system, [&x, &slope], [start, end - start], tolerance).next;
+        x = forced_step(method, system, [&x, &slope], [start, end - start], rung).next;
     }
     x
 }
 
-const EARLY: f64 = 1e9;
-const WHOLE: f64 = 0.0;
+/// The same with DOP853.
+fn exact(system: &impl System<4>, steps: u32) -> [f64; 4] {
+    let mut x = [0.3, 1.0, 2.0, 0.0];
+    for step in 0..steps {
+        let [start, end] = [step, step + 1].map(|i| f64::from(i) / f64::from(steps));
+        let slope = system.derivatives(start, &x);
+        x = tried(&mut &DOP853, system, [&x, &slope], [start, end - start], 1e9).next;
+    }
+    x
+}
 
 #[test]
 fn verif_linear_oscillators_are_exact_at_any_step() {
     let system = Duffing { stiffening: 0.0 };
     let (sin, cos) = OMEGA.sin_cos();
     let exact = [0.3 + (sin + 0.1 * (1.0 - cos)) / OMEGA, cos + 0.1 * sin, 2.0 * cos - OMEGA * sin];
-    for (steps, tolerance) in [(11, EARLY), (11, WHOLE), (40, EARLY), (1000, EARLY), (1000, WHOLE)]
-    {
-        let x = forced(&mut exponential(&system), &system, steps, tolerance);
+    for (steps, rung) in [(11, EARLY), (11, WHOLE), (40, EARLY), (1000, EARLY), (1000, WHOLE)] {
+        let x = forced(&mut exponential(&system), &system, steps, rung);
         for i in 0..3 {
             assert!(
                 (x[i] - exact[i]).abs() < 1e-12 * system.nominal()[i],
@@ -147,41 +203,49 @@ fn verif_linear_oscillators_are_exact_at_any_step() {
     }
 }
 
-/// The power of the step by which the errors of 160 and 640 steps differ where the rest is large.
-fn order(tolerance: f64) -> f64 {
+/// The power of the step by which the errors of some and four times as many steps differ where the rest is large.
+fn order(rung: usize, steps: u32) -> f64 {
     let system = Duffing { stiffening: 0.5 };
-    let exact = forced(&mut &DOP853, &system, 4000, EARLY);
+    let exact = exact(&system, 4000);
     let error = |steps| {
-        let x = forced(&mut exponential(&system), &system, steps, tolerance);
+        let x = forced(&mut exponential(&system), &system, steps, rung);
         (0..3).map(|i| ((x[i] - exact[i]) / system.nominal()[i]).abs()).fold(0.0, f64::max)
     };
-    (error(160) / error(640)).log2() / 2.0
+    (error(steps) / error(4 * steps)).log2() / 2.0
 }
 
 #[test]
-fn verif_a_whole_step_converges_with_order_four_or_more_where_the_rest_is_large() {
+fn verif_the_second_rung_converges_with_order_four_or_more_where_the_rest_is_large() {
     // The stages' share of a step's error falls with the fourth power of the step, that of the
     // quadrature with the sixth.
-    let order = order(WHOLE);
+    let order = order(WHOLE, 160);
     assert!((3.9..6.5).contains(&order), "order {order}");
 }
 
 #[test]
-fn verif_an_early_end_converges_with_order_two_or_more_where_the_rest_is_large() {
-    let order = order(EARLY);
+fn verif_the_first_rung_converges_with_order_two_or_more_where_the_rest_is_large() {
+    let order = order(EARLY, 160);
     assert!((2.8..4.5).contains(&order), "order {order}");
+}
+
+#[test]
+fn verif_the_third_rung_converges_with_order_five_or_more_where_the_rest_is_large() {
+    let order = order(FINE, 40);
+    assert!((4.9..7.5).contains(&order), "order {order}");
 }
 
 #[test]
 fn verif_the_error_found_is_no_less_than_that_of_the_step() {
     let system = Duffing { stiffening: 0.5 };
-    let (start, tolerance) = ([0.3, 1.0, 2.0, 0.0], 1e-6);
+    let start = [0.3, 1.0, 2.0, 0.0];
     let slope = system.derivatives(0.0, &start);
-    let [mut early, mut whole] = [0, 0];
-    for halvings in 3..20 {
+    let mut ends = [0; 11];
+    for (halvings, tolerance) in (3..20).flat_map(|n| [(n, 1e-6), (n, 1e-9)]) {
         let h = 0.5_f64.powi(halvings);
-        let attempt = Attempt { system: &system, x: &start, slope: &slope, t: 0.0, h, tolerance };
+        let counted = Counted { system: &system, calls: Cell::new(0) };
+        let attempt = Attempt { system: &counted, x: &start, slope: &slope, t: 0.0, h, tolerance };
         let step = exponential(&system).trial(&attempt);
+        ends[counted.calls.get()] += 1;
         let exact = (0..64).fold(start, |x, i| {
             let slope = system.derivatives(0.0, &x);
             let step = [h * f64::from(i) / 64.0, h / 64.0];
@@ -189,11 +253,12 @@ fn verif_the_error_found_is_no_less_than_that_of_the_step() {
         });
         let rates = std::array::from_fn(|i| (step.next[i] - exact[i]) / h);
         let error = attempt.error(&exact, &rates);
-        *if step.order == 3 { &mut early } else { &mut whole } += 1;
-        // Rounding is a few 1e-10 of this tolerance.
-        assert!(error < step.error + 1e-6, "{h} s: {error}, found {}", step.error);
+        // Rounding is a few 1e-16.
+        assert!(error < step.error + 1e-15 / tolerance, "{h} s: {error}, found {}", step.error);
     }
-    assert!(early > 2 && whole > 2, "{early} steps ended early, {whole} did not");
+    for rung in [EARLY, WHOLE, FINE] {
+        assert!(ends[rung] > 2, "{} steps ended at {rung} right-hand sides", ends[rung]);
+    }
 }
 
 /// The linear oscillator with a force t^power on every state.
@@ -216,18 +281,21 @@ impl System<4> for Forced {
 
 #[test]
 fn verif_polynomial_residuals_are_exact() {
-    // The stiff order conditions sum_j b_j(z) c_j^k / k! = phi_(k+1)(z) at z = 1.25i: for k up to 3 in a
-    // full step, up to 1 in one that ends at its second stage, and for no k beyond.
-    for (tolerance, highest) in [(WHOLE, 3), (EARLY, 1)] {
+    // The stiff order conditions sum_j b_j(z) c_j^k / k! = phi_(k+1)(z) at z = 1.25i: for k up to 5, 3 and 1 in a
+    // step that ends at the third, second and first rung; beyond the first two for no other.
+    for (rung, highest) in [(FINE, 5), (WHOLE, 3), (EARLY, 1)] {
         for power in 0..=highest + 1 {
             let system = Forced { power };
             let mut method = exponential(&Duffing { stiffening: 0.0 });
-            let ours = forced(&mut method, &system, 16, tolerance);
-            let exact = forced(&mut &DOP853, &system, 1000, EARLY);
+            let ours = forced(&mut method, &system, 16, rung);
+            let exact = exact(&system, 1000);
             let error = (0..3)
                 .map(|i| ((ours[i] - exact[i]) / system.nominal()[i]).abs())
                 .fold(0.0, f64::max);
-            assert_eq!(error < 1e-12, power <= highest, "t^{power}, {tolerance}: {error:e}");
+            // The rule of the third rung is so good that an error would not show.
+            if rung != FINE || power <= highest {
+                assert_eq!(error < 1e-12, power <= highest, "t^{power}, {rung}: {error:e}");
+            }
         }
     }
 }
@@ -247,14 +315,32 @@ impl System<4> for Dahlquist {
     }
 }
 
+/// The method without a linear part.
+fn without_linear_part() -> Exponential<4, SLOW, 2> {
+    Exponential::new(Decoupling::new(&DMatrix::zeros(3, 3), Dahlquist.nominal()))
+}
+
+#[test]
+fn verif_the_digits_of_a_step_length_that_its_weights_lack_cost_none() {
+    // Steps whose lengths differ by less than 2^-33 share their weights; the state moves on nevertheless.
+    let (x, h) = ([1.0; 4], 0.25);
+    let longer = h * (1.0 + 0.9 * 0.5_f64.powi(33));
+    for rung in [EARLY, WHOLE, FINE] {
+        let [short, long] = [h, longer].map(|h| {
+            forced_step(&mut without_linear_part(), &Dahlquist, [&x, &x], [0.0, h], rung).next[1]
+        });
+        let moved = (long - short) / ((longer - h) * h.exp());
+        assert!((moved - 1.0).abs() < 0.05, "{rung}: {moved}");
+    }
+}
+
 #[test]
 fn verif_the_classical_order_is_three_and_two() {
     // Without a linear part this is a Runge-Kutta method. Of its polynomial R(z) the coefficient of z^4 is
     // b A A c = 1/24 - 2/9 (3/4 b_1 + b_2 a_20), as stage 0 has order 1 and the others order 2.
     let (z, x) = (0.5_f64.powi(7), [1.0; 4]);
-    let step = |tolerance: f64| {
-        let linear = Decoupling::<4, SLOW, 2>::new(&DMatrix::zeros(3, 3), Dahlquist.nominal());
-        tried(&mut Exponential::new(linear), &Dahlquist, [&x, &x], [0.0, z], tolerance).next[1]
+    let step = |rung: usize| {
+        forced_step(&mut without_linear_part(), &Dahlquist, [&x, &x], [0.0, z], rung).next[1]
     };
     let second_order = 1.0 + z + z * z / 2.0;
     assert!((step(EARLY) - second_order).abs() < 1e-15);
