@@ -5,7 +5,7 @@ mod chart;
 #[cfg(feature = "diffsol")]
 mod diffsol;
 mod ensemble;
-mod instructions;
+pub mod instructions;
 mod masters;
 mod other_integrators;
 mod precision;

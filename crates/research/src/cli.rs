@@ -92,7 +92,7 @@ pub struct Fit {
     pub check: bool,
 }
 
-/// Compare integration methods on the vehicle: right-hand sides against error
+/// Compare integration methods on the vehicle: right-hand sides and instructions for an error
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -101,6 +101,11 @@ Examples:
 pub struct Compare {
     #[command(flatten)]
     pub set: Set,
+    /// Fly with this method under callgrind, `calls` times
+    #[arg(long, hide = true)]
+    pub probe: Option<String>,
+    #[arg(long, hide = true, default_value_t = 1)]
+    pub calls: usize,
 }
 
 /// Measure speed and size against other integrators, Python and SciPy; write a table and a figure

@@ -1,172 +1,155 @@
-//! `cargo ahv methods`: evaluations of the right-hand side against error, for several integration methods.
+//! `cargo ahv methods`: right-hand sides and instructions that integration methods need for an error, in flights near
+//! trim and far from it.
 
+mod cases;
+mod double_double;
+mod extrapolation;
+mod problem;
 mod tableaus;
 
+pub use problem::{Counted, EXACT, FLIGHT_S, Law, Problem, error};
 pub use tableaus::RKF78;
 
+use crate::bench::instructions::count;
 use crate::cli::Compare;
-use ahv::dynamics::trim::Trim;
-use ahv::flight::{DEFAULT_TOLERANCE, method};
-use ahv::solve::{DOP853, Integrator, Method, Outcome, System};
-use ahv::vehicle::{ALPHA, Control, DELTA_E, NOMINAL, PHI, Q, STATES, State, Vehicle};
+use ahv::flight::method;
+use ahv::solve::{DOP853, Outcome};
+use ahv::vehicle::State;
 use ahv_tool::table::{row, table};
-use ahv_tool::trim::flight;
+use ahv_tool::workspace::{target, works};
 use anyhow::Result;
-use std::cell::Cell;
-use std::convert::Infallible;
+use cases::{CASES, Case};
+use extrapolation::Extrapolation;
+use std::hint::black_box;
+use tableaus::DOPRI5;
 
-/// Elevator relative to trim in the quarters of the flight, rad.
-pub const DOUBLET: [f64; 4] = [0.0, 0.01, -0.01, 0.0];
-/// Feedback of incidence (rad per rad) and pitch rate (s) to the elevator that stabilises the short
-/// period.
-pub const FEEDBACK: [f64; 2] = [9.0, 2.0];
-/// Length of the flight, s; the unstable vehicle amplifies errors in longer flights.
-pub const FLIGHT_S: f64 = 1.0;
-/// Initial disturbance of incidence, pitch rate and modes in the second flight, in nominal values.
-const DISTURBANCE: f64 = 3.0;
-const TOLERANCES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
-/// Tolerance of the reference flight, which uses another method than the vehicle.
-pub const EXACT: f64 = 1e-14;
+/// Tolerances from which the work for an error is interpolated: ten to the power of minus these.
+const DIGITS: std::ops::RangeInclusive<i32> = 3..=14;
+/// Errors of the table: ten to the power of minus these.
+const ERRORS: [i32; 5] = [6, 8, 10, 11, 12];
+/// Tolerance of the flights whose instructions are counted, and their case.
+const PROBED: (f64, usize) = (1e-12, 4);
 
-/// Control law of the elevator.
-#[derive(Debug, Clone, Copy)]
-pub struct Law {
-    /// Incidence in trim, rad.
-    alpha: f64,
-    feedback: [f64; 2],
-}
+/// Flies a case with a tolerance: final state and right-hand sides, unless rounding exceeds the tolerance.
+type Fly = fn(&Case, f64) -> Result<(State, usize), Outcome>;
 
-impl Law {
-    /// The doublet alone.
-    pub const OPEN: Self = Self { alpha: 0.0, feedback: [0.0; 2] };
+const METHODS: [(&str, Fly); 5] = [
+    ("DOPRI5", |case, tolerance| case.problem().try_fly(&mut &DOPRI5, tolerance)),
+    ("RKF78", |case, tolerance| case.problem().try_fly(&mut &RKF78, tolerance)),
+    ("DOP853", |case, tolerance| case.problem().try_fly(&mut &DOP853, tolerance)),
+    ("extrapolation", |case, tolerance| case.problem().try_fly(&mut Extrapolation::<6>, tolerance)),
+    ("exponential", |case, tolerance| {
+        case.problem().try_fly(&mut method(&case.vehicle, &case.trim), tolerance)
+    }),
+];
 
-    /// The doublet with feedback of the deviation from trim.
-    pub fn closed(trim: &Trim) -> Self {
-        Self { alpha: trim.state[ALPHA], feedback: FEEDBACK }
-    }
-
-    /// Elevator relative to trim, rad, in a communication step that starts at state `x`.
-    pub fn elevator(&self, step: usize, steps: usize, x: &State) -> f64 {
-        let [per_alpha, per_q] = self.feedback;
-        DOUBLET[step * DOUBLET.len() / steps] + per_alpha * (x[ALPHA] - self.alpha) + per_q * x[Q]
-    }
-}
-
-/// The vehicle in one communication step, with a count of right-hand sides.
-pub struct Counted<'a> {
-    pub vehicle: &'a Vehicle,
-    pub control: Control,
-    calls: &'a Cell<usize>,
-}
-
-impl System<STATES> for Counted<'_> {
-    fn derivatives(&self, _: f64, x: &State) -> State {
-        self.calls.set(self.calls.get() + 1);
-        self.vehicle.derivatives(x, &self.control, [0.0; 2])
-    }
-    fn holds(&self, _: f64, _: &State) -> bool {
-        true
-    }
-    fn nominal(&self) -> &State {
-        &NOMINAL
-    }
-}
-
-/// The trimmed vehicle under an elevator doublet.
-pub struct Problem<'a> {
-    vehicle: &'a Vehicle,
-    start: State,
-    control: Control,
-    /// Communication steps of the flight.
-    steps: usize,
-    law: Law,
-}
-
-impl<'a> Problem<'a> {
-    /// From trim, in equal communication steps.
-    pub fn new(vehicle: &'a Vehicle, trim: &Trim, steps: usize, law: Law) -> Self {
-        Self { vehicle, start: trim.state, control: trim.control, steps, law }
-    }
-
-    /// Final state and right-hand sides, where `step` integrates the interval (s) of one communication step.
-    pub fn each<E>(
-        &self,
-        mut step: impl FnMut(&Counted, [f64; 2], &mut State) -> Result<(), E>,
-    ) -> Result<(State, usize), E> {
-        let (mut x, calls) = (self.start, Cell::new(0));
-        for number in 0..self.steps {
-            let elevator = self.law.elevator(number, self.steps, &x);
-            let control = [self.control[DELTA_E] + elevator, self.control[PHI]];
-            let system = Counted { vehicle: self.vehicle, control, calls: &calls };
-            let time = |number: usize| FLIGHT_S * number as f64 / self.steps as f64;
-            step(&system, [time(number), time(number + 1)], &mut x)?;
-        }
-        Ok((x, calls.get()))
-    }
-
-    /// Final state and right-hand sides.
-    pub fn fly(&self, method: &mut impl Method<STATES>, tolerance: f64) -> (State, usize) {
-        let (mut integrator, mut slope) = (Integrator::new(tolerance, 1e-3), None);
-        let mut before = None;
-        let flown: Result<_, Infallible> = self.each(|system, interval, x| {
-            if before.replace(system.control) != Some(system.control) {
-                slope = None;
-            }
-            let outcome = integrator.advance(method, system, x, interval, &mut slope);
-            assert_eq!(outcome, Outcome::Complete, "the flight is short and stays near trim");
-            Ok(())
-        });
-        let Ok(flown) = flown;
-        flown
-    }
-
-    fn cell(&self, method: &mut impl Method<STATES>, tolerance: f64, exact: &State) -> String {
-        let (x, calls) = self.fly(method, tolerance);
-        format!("{calls:6}  {:.0e}", error(&x, exact))
-    }
-}
-
-/// Largest error of a state over the sum of nominal value and magnitude.
-pub fn error(x: &State, exact: &State) -> f64 {
-    (0..STATES).map(|i| (x[i] - exact[i]).abs() / (NOMINAL[i] + exact[i].abs())).fold(0.0, f64::max)
-}
-
-/// A start far from trim in incidence, pitch rate and modes.
-fn disturbed(vehicle: &Vehicle, trim: &Trim) -> Trim {
-    let mut state = trim.state;
-    for i in ALPHA..vehicle.states() {
-        state[i] += DISTURBANCE * NOMINAL[i];
-    }
-    Trim { state, ..*trim }
-}
-
-/// Prints right-hand sides and error of each method for a range of tolerances.
+/// Prints the right-hand sides of each method for a range of errors.
 pub fn run(options: &Compare) -> Result<()> {
-    let flight = flight(&options.set)?;
-    let (vehicle, trim) = (flight.vehicle(), flight.trim());
-    let mut exponential = method(vehicle, trim);
+    let cases = CASES.iter().map(|plan| Case::new(plan, &options.set));
+    let cases: Vec<Case> = cases.collect::<Result<_>>()?;
+    if let Some(probe) = &options.probe {
+        return self::probe(probe, options.calls, &cases);
+    }
     outln!(
-        "Elevator doublet, {FLIGHT_S} s: evaluations of the right-hand side, and the largest error of a"
+        "Right-hand sides for an error: the largest of a state at the end over the sum of its nominal value and"
     )?;
-    outln!("state over the sum of its nominal value and magnitude\n")?;
-    for (start, from) in [("trim", *trim), ("a disturbed state", disturbed(vehicle, trim))] {
-        for steps in [100, 4] {
-            let problem = Problem::new(vehicle, &from, steps, Law::OPEN);
-            let (exact, _) = problem.fly(&mut &RKF78, EXACT);
-            let mut rows = vec![row(["tolerance", "DOPRI5", "RKF78", "DOP853", "exponential"])];
-            for tolerance in TOLERANCES {
-                let mark = if tolerance == DEFAULT_TOLERANCE { " (default)" } else { "" };
-                rows.push(vec![
-                    format!("{tolerance:.0e}{mark}"),
-                    problem.cell(&mut &tableaus::DOPRI5, tolerance, &exact),
-                    problem.cell(&mut &RKF78, tolerance, &exact),
-                    problem.cell(&mut &DOP853, tolerance, &exact),
-                    problem.cell(&mut exponential, tolerance, &exact),
-                ]);
+    outln!("magnitude, against a flight in twice the precision\n")?;
+    for case in &cases {
+        let exact = case.problem().exact()?;
+        let mut rows = vec![row(["error"])];
+        rows[0].extend(METHODS.map(|(name, _)| name.to_string()));
+        rows.extend(ERRORS.map(|digits| vec![format!("1e-{digits}")]));
+        for (_, fly) in &METHODS {
+            let points = points(*fly, case, &exact);
+            for (row, digits) in rows[1..].iter_mut().zip(ERRORS) {
+                let work = work_for(&points, libm::pow(10.0, -f64::from(digits)));
+                row.push(work.map_or("-".to_string(), |calls| format!("{calls:.0}")));
             }
-            let step = FLIGHT_S / steps as f64;
-            outln!("From {start}, communication step {step} s\n{}", table(&rows))?;
         }
+        outln!("{}\n{}", case.title(), table(&rows))?;
+    }
+    if !works("valgrind", &["--version"]) {
+        return outln!("valgrind is not installed: no instructions").map_err(Into::into);
+    }
+    std::fs::create_dir_all(target().join("bench"))?;
+    let (tolerance, number) = PROBED;
+    let mut rows =
+        vec![row(["method", "instructions of a right-hand side, with those of the method"])];
+    for (name, fly) in METHODS {
+        let calls = fly(&cases[number], tolerance).map_or(0, |(_, calls)| calls);
+        let total = |flights: &str| {
+            let mut arguments = vec!["methods", "--probe", name, "--calls", flights];
+            arguments.extend(options.set.settings.iter().flat_map(|set| ["--set", set.as_str()]));
+            count(&std::env::current_exe()?, &arguments)
+        };
+        let each = (total("2")? - total("1")?) / calls as f64;
+        rows.push(vec![name.to_string(), format!("{each:.0}")]);
+    }
+    outln!("{} at a tolerance of {tolerance:.0e}\n{}", cases[number].title(), table(&rows))?;
+    Ok(())
+}
+
+/// Flies some times with a method, under callgrind.
+fn probe(name: &str, flights: usize, cases: &[Case]) -> Result<()> {
+    let (tolerance, number) = PROBED;
+    for (_, fly) in METHODS.iter().filter(|(method, _)| *method == name) {
+        (0..flights).for_each(|_| {
+            let _ = black_box(fly(&cases[number], tolerance));
+        });
     }
     Ok(())
+}
+
+/// Errors and right-hand sides for all tolerances.
+fn points(fly: Fly, case: &Case, exact: &State) -> Vec<[f64; 2]> {
+    DIGITS
+        .filter_map(|digits| fly(case, libm::pow(10.0, -f64::from(digits))).ok())
+        .map(|(x, calls)| [error(&x, exact), calls as f64])
+        .collect()
+}
+
+/// Work for an error, interpolated between points [error, work] with logarithmic scales; that of the first
+/// point for larger errors.
+pub fn work_for(points: &[[f64; 2]], error: f64) -> Option<f64> {
+    let first = points.first()?;
+    if first[0] <= error {
+        return Some(first[1]);
+    }
+    points.windows(2).find(|pair| pair[1][0] <= error).map(|pair| {
+        let [[x0, y0], [x1, y1]] = [pair[0], pair[1]].map(|point| point.map(libm::log));
+        libm::exp(y0 + (y1 - y0) * (libm::log(error) - x0) / (x1 - x0))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ahv_tool::cli::Set;
+
+    #[test]
+    fn the_work_for_an_error_is_read_between_the_points() {
+        let points = [[1e-2, 1.0], [1e-4, 4.0]];
+        assert!((work_for(&points, 1e-3).unwrap() - 2.0).abs() < 1e-12);
+        assert_eq!(work_for(&points, 1.0), Some(1.0));
+        assert_eq!(work_for(&points, 1e-9), None);
+    }
+
+    #[test]
+    fn verif_the_exponential_method_needs_less_than_two_thirds_of_the_work_of_dop853_everywhere() {
+        let fly = |name| METHODS.iter().find(|(method, _)| *method == name).unwrap().1;
+        for plan in &CASES {
+            let case = Case::new(plan, &Set { settings: Vec::new() }).unwrap();
+            let exact = case.problem().exact().unwrap();
+            let [ours, theirs] =
+                ["exponential", "DOP853"].map(|name| points(fly(name), &case, &exact));
+            for digits in [6, 8, 10, 12] {
+                let error = 10.0_f64.powi(-digits);
+                let [ours, theirs] = [&ours, &theirs].map(|points| work_for(points, error));
+                // DOP853 is not that accurate in every flight.
+                let theirs = theirs.unwrap_or(f64::INFINITY);
+                let ours = ours.unwrap_or_else(|| panic!("{}: {error:e}", case.title()));
+                assert!(1.5 * ours < theirs, "{}, {error:e}: {ours}, {theirs}", case.title());
+            }
+        }
+    }
 }

@@ -246,11 +246,12 @@ impl<'a, S: System<N>, const N: usize, const SLOW: usize, const FAST: usize>
         weights.prepare::<{ FINE_DEGREE + 1 }>(FINE, &self.linear.blocks, self.weights_h);
         let mut residuals = [[0.0; N]; STAGES];
         residuals[COARSE].copy_from_slice(&coarse.residuals);
-        for stage in FINE.start..ENDS[2] {
-            let weights = weights.of(stage, FINE.start);
-            residuals[stage] = self.stage(stage, weights, &residuals).residual;
-        }
-        let end = self.stage(ENDS[2], weights.of(ENDS[2], FINE.start), &residuals);
+        let of = |stage| weights.of(stage, FINE.start);
+        residuals[5] = self.stage(5, of(5), &residuals).residual;
+        residuals[6] = self.stage(6, of(6), &residuals).residual;
+        residuals[7] = self.stage(7, of(7), &residuals).residual;
+        residuals[8] = self.stage(8, of(8), &residuals).residual;
+        let end = self.stage(ENDS[2], of(ENDS[2]), &residuals);
         let Self { linear, attempt, max_step, .. } = self;
         let stages = self.error(&end.state, &difference_of(&end.residual, &residuals[ENDS[1]]));
         let gain = std::array::from_fn(|i| (end.state[i] - coarse.state[i]) / attempt.h);

@@ -58,7 +58,7 @@ pub fn probe(probe: Probe, calls: usize) -> Result<()> {
 }
 
 /// Instructions of a program with these arguments.
-fn count(program: &Path, arguments: &[&str]) -> Result<f64> {
+pub fn count(program: &Path, arguments: &[&str]) -> Result<f64> {
     let file = target().join("bench/callgrind.out");
     let output = Command::new("valgrind")
         .arg("--tool=callgrind")

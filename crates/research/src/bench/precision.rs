@@ -4,7 +4,7 @@ use super::Effort;
 use super::report::Report;
 use super::timing::{Spread, seconds};
 use super::{other_integrators, rust_crates};
-use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error};
+use crate::methods::{EXACT, FLIGHT_S, Law, Problem, RKF78, error, work_for};
 use ahv::flight::{DEFAULT_TOLERANCE, Flight, Setup, method};
 use ahv::vehicle::{DELTA_E, State};
 use ahv_tool::python::python;
@@ -145,37 +145,8 @@ fn compare(what: &str, points: &[Point], report: &mut Report) {
     }
 }
 
-/// Seconds for an error, interpolated between points with logarithmic scales; the time of the first point for
-/// larger errors. Uses shortest times, as other processes only add time.
+/// Seconds for an error. Uses shortest times, as other processes only add time.
 fn time_for(points: &[&Point], error: f64) -> Option<f64> {
-    let first = points.first()?;
-    if first.error <= error {
-        return Some(first.seconds.least);
-    }
-    points.windows(2).find(|pair| pair[1].error <= error).map(|pair| {
-        let [x0, x1] = [pair[0], pair[1]].map(|point| libm::log(point.error));
-        let [y0, y1] = [pair[0], pair[1]].map(|point| libm::log(point.seconds.least));
-        libm::exp(y0 + (y1 - y0) * (libm::log(error) - x0) / (x1 - x0))
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_time_for_an_error_is_read_between_the_points() {
-        let point = |error: f64, seconds: f64| Point {
-            method: String::new(),
-            tolerance: String::new(),
-            seconds: Spread::exact(seconds),
-            calls: 0,
-            error,
-        };
-        let points = [point(1e-2, 1.0), point(1e-4, 4.0)];
-        let points: Vec<_> = points.iter().collect();
-        assert!((time_for(&points, 1e-3).unwrap() - 2.0).abs() < 1e-12);
-        assert_eq!(time_for(&points, 1.0), Some(1.0));
-        assert_eq!(time_for(&points, 1e-9), None);
-    }
+    let points: Vec<_> = points.iter().map(|point| [point.error, point.seconds.least]).collect();
+    work_for(&points, error)
 }
