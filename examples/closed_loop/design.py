@@ -17,25 +17,11 @@ import control as ct
 import numpy as np
 from fmpy import extract
 
-HERE = Path(__file__).resolve().parent
-# The package of this repository, unless it is installed.
-sys.path.append(str(HERE.parents[1] / "python/src"))
-from ahv import Linearizer, LinearModel
-from law import PERIOD_S, Law, save_schedule
+from law import LAW, PERIOD_S, Law, save_schedule
+from models import MEASURED, SLOSH, STATES, LinearModel, model, sampled
 
-MEASURED = ("V", "gamma", "q")
-SLOSHING = ("slosh1", "slosh2")
-RIGID, EVEN, SLOSH = 1, 2, 3
+HERE = Path(__file__).resolve().parent
 DEG = np.pi / 180
-# States of the design model; height hardly affects V, gamma and q within seconds.
-RIGID_STATES = ["V", "gamma", "alpha", "q"]
-FLEXIBLE_STATES = [f"eta{i}{suffix}" for i in (1, 2, 3) for suffix in ("", "_dot")]
-SLOSH_STATES = [f"{slosh}{suffix}" for slosh in SLOSHING for suffix in ("", "_dot")]
-STATES = {
-    RIGID: RIGID_STATES,
-    EVEN: RIGID_STATES + FLEXIBLE_STATES,
-    SLOSH: RIGID_STATES + FLEXIBLE_STATES + SLOSH_STATES,
-}
 # Bryson's rule: acceptable errors of V and gamma, of their integrals over the seconds in which
 # they should vanish, and acceptable actuator deflections.
 ERROR = np.array([5.0, 0.5 * DEG])
@@ -51,59 +37,6 @@ FUELS = [
     *(0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.25),
     *(0.3, 0.4, 0.5, 0.75, 1.0),
 ]
-LAW = "resources/law.json"
-
-
-def linearizer(folder: str | Path) -> Linearizer:
-    """For the models of many vehicles, of the FMU unzipped in `folder`."""
-    return Linearizer(folder, (*MEASURED, *SLOSHING))
-
-
-def model(fmu: str | Path | Linearizer, **parameters: float) -> LinearModel:
-    """Linear model of the FMU unzipped in a folder, with the measurements of the autopilot.
-
-    With the displacements of the liquid in place of the slosh modes: where their frequencies cross,
-    the modes change places, and gains between two levels of fuel could not be interpolated.
-    """
-    if not isinstance(fmu, Linearizer):
-        with linearizer(fmu) as opened:
-            return model(opened, **parameters)
-    full = fmu.model(**parameters)
-    liquid, measured = full.C[len(MEASURED) :], full.C[: len(MEASURED)]
-    old = [full.states.index(f"eta_{slosh}") for slosh in SLOSHING]
-    names = [name.removeprefix("eta_") if "slosh" in name else name for name in full.states]
-    change = np.eye(len(names))
-    if liquid.any():
-        change[old] = liquid
-        # A mode's rate stands behind it.
-        moving = np.flatnonzero(liquid.any(axis=0))
-        for row, displacement in zip(old, liquid, strict=True):
-            change[row + 1, moving + 1] = displacement[moving]
-    back = np.linalg.inv(change)
-    return full._replace(
-        A=change @ full.A @ back,
-        B=change @ full.B,
-        C=measured @ back,
-        D=full.D[: len(MEASURED)],
-        states=names,
-        outputs=list(MEASURED),
-    )
-
-
-def rigid_model(folder: str) -> LinearModel:
-    """The vehicle without bending and slosh, with the mass centre of the default vehicle."""
-    centres = [
-        model(folder, configuration=configuration).trim["mass_centre"]
-        for configuration in (RIGID, SLOSH)
-    ]
-    return model(folder, configuration=RIGID, mass_centre_shift=centres[1] - centres[0])
-
-
-def sampled(full: LinearModel, states: Sequence[str], period_s: float = PERIOD_S) -> ct.StateSpace:
-    """The model with these states only, discretised with held inputs."""
-    kept = [full.states.index(name) for name in states]
-    plant = ct.ss(full.A[np.ix_(kept, kept)], full.B[kept], full.C[:, kept], full.D)
-    return ct.sample_system(plant, period_s, "zoh")
 
 
 def design(
@@ -119,7 +52,11 @@ def design(
     weight = np.zeros(n + 2)
     weight[:2], weight[n:] = 1 / ERROR**2, 1 / (ERROR * VANISH_S) ** 2
     gain, _, _ = ct.dlqr(
-        plant, np.diag(weight), np.diag(1 / EFFORT**2), integral_action=period_s * plant.C[:2]
+        plant.A,
+        plant.B,
+        np.diag(weight),
+        np.diag(1 / EFFORT**2),
+        integral_action=period_s * plant.C[:2],
     )
     noise = plant.B @ np.diag((input_noise * INPUT_NOISE) ** 2) @ plant.B.T
     for name, deviation in STATE_NOISE.items():

@@ -6,6 +6,7 @@ Used by the FMU (autopilot.py), the margins (margins.py) and the ensemble.
 from __future__ import annotations
 
 import json
+import zipfile
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
@@ -19,8 +20,14 @@ import numpy as np
 LOW, HIGH = np.array([-np.pi / 9, 0.0]), np.array([np.pi / 9, 0.65])
 # The speed error is limited to this, m/s; a larger one would saturate the elevator.
 SPEED_ERROR = 10.0
+# Where the FMU ahv_autopilot has its designs.
+LAW = "resources/law.json"
 # Sampling period of the law, and communication step of the masters.
 PERIOD_S = 0.01
+
+
+class BadLaw(Exception):
+    """The file of an autopilot is none, or its law cannot be read."""
 
 
 @dataclass
@@ -47,6 +54,13 @@ class Law:
     highest: np.ndarray = field(default_factory=HIGH.copy)
     speed_error_m_per_s: float = SPEED_ERROR
 
+    def __post_init__(self) -> None:
+        n, shape = len(self.A), {"level": (3,), "trim": (2,), "lowest": (2,), "highest": (2,)}
+        shape |= {"A": (n, n), "B": (n, 2), "C": (3, n), "K": (2, n), "Ki": (2, 2), "L": (n, 3)}
+        for name, needed in shape.items():
+            if (given := np.shape(getattr(self, name))) != needed:
+                raise ValueError(f"{name} has the shape {given}; {needed} is needed")
+
     @property
     def low(self) -> np.ndarray:
         """Smallest commands, as deviations from trim, rad and 1; shape (2,)."""
@@ -68,8 +82,26 @@ class Law:
     @classmethod
     def load(cls, path: Path) -> Law:
         """Read the first design that `save` or `save_schedule` wrote."""
-        values = json.loads(path.read_text(encoding="utf-8"))["designs"][0]
-        return cls(**{k: np.array(v) if isinstance(v, list) else v for k, v in values.items()})
+        return load_schedule(path.read_text(encoding="utf-8"))[0]
+
+    @classmethod
+    def within(cls, autopilot: Path) -> Law:
+        """The design that the FMU ahv_autopilot flies by default, for full tanks; or BadLaw."""
+        try:
+            with zipfile.ZipFile(autopilot) as archive:
+                laws = load_schedule(archive.read(LAW).decode("utf-8"))
+        except (zipfile.BadZipFile, KeyError, IndexError, TypeError, ValueError) as failure:
+            raise BadLaw(f"{autopilot}: {failure}") from failure
+        own = [law for law in laws if law.period_s == laws[0].period_s]
+        return max(own, key=lambda law: law.fuel_fraction)
+
+
+def load_schedule(text: str) -> list[Law]:
+    """Read the designs that `save_schedule` wrote."""
+    return [
+        Law(**{k: np.array(v) if isinstance(v, list) else v for k, v in values.items()})
+        for values in json.loads(text)["designs"]
+    ]
 
 
 def save_schedule(path: Path, laws: Iterable[Law]) -> None:

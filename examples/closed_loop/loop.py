@@ -21,7 +21,7 @@ WITHIN = re.compile(r"(?:vehicle|autopilot)\.fmu: (?!fmu\w+ status=)(.*)", re.DO
 
 
 class Flown(NamedTuple):
-    """Rows of time, s, and the outputs after each communication step; the reason of an early end."""
+    """Rows of time, s, and outputs after each communication step; the reason of an early end."""
 
     rows: np.ndarray
     ended: str

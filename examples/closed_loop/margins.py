@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import control as ct
 import numpy as np
 
 from law import Law
+from models import Plant
 
 # Frequencies between which crossings are looked for: per decade, and about each pole, in its half
 # widths (equal arcs of the circle that it adds to the curve), but not on an undamped one.
@@ -47,7 +47,7 @@ class Margins(NamedTuple):
     least_damping: float
 
 
-def linear(law: Law) -> ct.StateSpace:
+def linear(law: Law) -> Plant:
     """The law from V, gamma, q to delta_e, phi, about level flight and within the limits."""
     n = len(law.A)
     a = np.block(
@@ -58,15 +58,15 @@ def linear(law: Law) -> ct.StateSpace:
     )
     b = np.vstack([law.L, law.period_s * np.eye(3)[:2]])
     c = -np.hstack([law.K, law.Ki])
-    return ct.ss(a, b, c, np.zeros((2, 3)), law.period_s)
+    return Plant(a, b, c)
 
 
-def loop(plant: ct.StateSpace, pilot: ct.StateSpace, gain: np.ndarray) -> np.ndarray:
+def loop(plant: Plant, pilot: Plant, gain: np.ndarray) -> np.ndarray:
     """Matrix of plant and autopilot, with its commands multiplied by `gain`, shape (2,)."""
     return np.block([[plant.A, plant.B * gain @ pilot.C], [pilot.B @ plant.C, pilot.A]])
 
 
-def poles(plant: ct.StateSpace, law: Law, gain: np.ndarray | None = None) -> np.ndarray:
+def poles(plant: Plant, law: Law, gain: np.ndarray | None = None) -> np.ndarray:
     """Poles of the closed loop, rad/s; commands multiplied by `gain`, shape (2,)."""
     matrix = loop(plant, linear(law), np.ones(2) if gain is None else gain)
     return np.log(np.linalg.eigvals(matrix).astype(complex)) / law.period_s
@@ -75,7 +75,7 @@ def poles(plant: ct.StateSpace, law: Law, gain: np.ndarray | None = None) -> np.
 class Curve:
     """Nyquist curve of the loop broken at one actuator, over the frequency in rad/s."""
 
-    def __init__(self, plant: ct.StateSpace, law: Law, actuator: int) -> None:
+    def __init__(self, plant: Plant, law: Law, actuator: int) -> None:
         self.period_s = law.period_s
         pilot, gain = linear(law), np.ones(2)
         closed = loop(plant, pilot, gain)
@@ -132,7 +132,7 @@ class Curve:
             raise Inexact(f"margins: the Nyquist curve is wrong by {wrong.max():.1e}")
 
 
-def margins(plant: ct.StateSpace, law: Law, actuator: int = 0) -> Margins:
+def margins(plant: Plant, law: Law, actuator: int = 0) -> Margins:
     """Margins at delta_e (0) or phi (1)."""
     curve = Curve(plant, law, actuator)
     ends = np.log(curve.zeros.ravel().astype(complex)) / law.period_s

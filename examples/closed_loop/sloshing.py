@@ -17,6 +17,7 @@ try:
     from fmpy import extract
 
     import design
+    import models
     from flight import Flight, fly, wanted
     from margins import margins
 except ModuleNotFoundError as missing:
@@ -48,8 +49,8 @@ HARD = {"slosh_frequency": 4.0, "slosh_damping": LIGHT}
 def study(folder: str, points: int | None = None) -> list[dict[str, float | str]]:
     """One row per point of each sweep and law."""
     nominal = [
-        design.design(design.rigid_model(folder), design.RIGID),
-        design.design(design.model(folder, configuration=design.EVEN), design.EVEN),
+        design.design(models.rigid_model(folder), models.RIGID),
+        design.design(design.model(folder, configuration=models.EVEN), models.EVEN),
         design.design(design.model(folder)),
     ]
     rows = []
@@ -106,7 +107,7 @@ def hard_case(folder: str, stop_s: float, path: Path) -> dict[str, Flight]:
     """The climb of the manoeuvre on the hardest vehicle."""
     manoeuvre = np.genfromtxt(design.HERE / "manoeuvre.csv", delimiter=",", names=True)
     commands = wanted(manoeuvre, stop_s, design.PERIOD_S)
-    rigid = design.design(design.rigid_model(folder), design.RIGID)
+    rigid = design.design(models.rigid_model(folder), models.RIGID)
     laws = {"rigid": rigid, "redesigned": design.design(design.model(folder, **HARD))}
     flights = {name: fly(folder, law, commands, ("slosh2",), **HARD) for name, law in laws.items()}
     figure, axes = plt.subplots(1, 2, figsize=(9, 3), layout="constrained")

@@ -1,4 +1,4 @@
-"""Figures of an ensemble: the envelope of the flights, and the distribution of margins."""
+"""Figures of an ensemble: envelope of the flights, distribution of margins, convergence."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from pathlib import Path
 import matplotlib
 import numpy as np
 import pyarrow as pa
+
+from summary import CONFIDENCE, events, interval
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -23,22 +25,27 @@ def padded(table: pa.Table, column: str) -> np.ndarray:
     return rows
 
 
-def envelope(table: pa.Table, commands: np.ndarray, every_s: float, path: Path) -> None:
-    """Plot percentiles of V and gamma against time. `commands`: (steps, 2), one per `every_s`."""
+def envelope(table: pa.Table, commands: dict[str, float], every_s: float, path: Path) -> None:
+    """Plot percentiles of V and gamma against time, and the breakpoints of the commands."""
     figure, axes = plt.subplots(1, 2, figsize=(7.5, 3.2), layout="constrained")
     speed = padded(table, "V_m_per_s")
     panels = [
-        (speed - speed[:, :1], commands[:, 0], "change of speed, m/s"),
-        (np.degrees(padded(table, "gamma_rad")), np.degrees(commands[:, 1]), "$\\gamma$, deg"),
+        (speed - speed[:, :1], "V_change", 1.0, "change of speed, m/s"),
+        (np.degrees(padded(table, "gamma_rad")), "gamma", np.degrees(1.0), "$\\gamma$, deg"),
     ]
-    for axis, (values, wanted, label) in zip(axes, panels, strict=True):
+    for axis, (values, name, factor, label) in zip(axes, panels, strict=True):
         time = np.arange(values.shape[1]) * every_s
+        points = [
+            [value for key, value in commands.items() if key.endswith(f"_{column}")]
+            for column in ("time", name)
+        ]
+        wanted = factor * np.interp(time, *points)
         for low, high, shade in BANDS:
             between = np.nanpercentile(values, [low, high], axis=0)
-            name = f"{low} to {high} %"
-            axis.fill_between(time, *between, color="C0", alpha=shade, lw=0, label=name)
+            shown = f"{low} to {high} %"
+            axis.fill_between(time, *between, color="C0", alpha=shade, lw=0, label=shown)
         axis.plot(time, np.nanmedian(values, axis=0), "C0", lw=1, label="median")
-        axis.plot(time, wanted[: len(time)], "k--", lw=1, label="wanted")
+        axis.plot(time, wanted, "k--", lw=1, label="wanted")
         axis.set_xlabel("time, s")
         axis.set_ylabel(label)
         axis.grid(alpha=0.3)
@@ -85,3 +92,30 @@ def shares(axis: plt.Axes, table: pa.Table, unstable: np.ndarray) -> None:
     axis.minorticks_off()
     axis.set_xlabel("slosh frequency, rad/s")
     axis.set_ylabel("slosh damping, %")
+
+
+def convergence(table: pa.Table, path: Path) -> None:
+    """Plot each probability over the number of flights, with its confidence interval.
+
+    The first flights of a Latin hypercube are a random part of it.
+    """
+    figure, axis = plt.subplots(figsize=(7.5, 3.6), layout="constrained")
+    total = table.num_rows
+    counts = np.unique(np.geomspace(min(20, total), total, 60).astype(int))
+    for number, (name, hits) in enumerate(events(table).items()):
+        if not hits.any():
+            continue
+        sums = np.cumsum(hits)[counts - 1]
+        bounds = np.array([interval(*pair) for pair in zip(sums, counts, strict=True)])
+        axis.fill_between(counts, *(100 * bounds.T), color=f"C{number}", alpha=0.2, lw=0)
+        axis.plot(counts, 100 * sums / counts, f"C{number}", lw=1.3, label=name)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.set_ylim(0.02, 100)
+    axis.yaxis.set_major_formatter("{x:g}")
+    axis.set_xlabel("flights")
+    axis.set_ylabel(f"vehicles, %, with {100 * CONFIDENCE:g} % confidence")
+    axis.grid(alpha=0.3)
+    axis.legend(fontsize=8, loc="lower left")
+    figure.savefig(path, dpi=110)
+    plt.close(figure)

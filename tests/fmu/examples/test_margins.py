@@ -8,11 +8,14 @@ import pytest
 from scipy.stats import ortho_group
 
 import design
-import ensemble
 import margins
+import models
+import vehicles
 from ahv import LinearModel
 from harness import Package
 from law import Law
+from models import Plant
+from sampling import sample
 
 # What the example states.
 DECIBELS, DEGREES = 0.01, 0.01
@@ -21,22 +24,22 @@ BESIDE = 0.002
 POINTS = 8_000
 
 
-def plants(package: Package, count: int) -> list[ct.StateSpace]:
+def plants(package: Package, count: int) -> list[Plant]:
     """Vehicles of the ensemble."""
-    vehicles = [v | {"aero": int(v["aero"])} for v in ensemble.sample(count, 1)]
-    models = [design.model(str(package.folder), **vehicle) for vehicle in vehicles]
-    return [design.sampled(model, design.STATES[design.SLOSH]) for model in models]
+    with models.linearizer(package.folder) as linearizer:
+        full = [models.model(linearizer, **vehicles.parameters(v)) for v in sample(count, 1)]
+    return [models.sampled(model, models.STATES[models.SLOSH]) for model in full]
 
 
 @pytest.fixture(scope="module")
 def law(package: Package) -> Law:
     """The autopilot of the example."""
-    return design.design(design.model(str(package.folder)))
+    return design.design(models.model(str(package.folder)))
 
 
 def jordan() -> LinearModel:
     """Equal lags in series: thirteen equal poles with one eigenvector, most states mixed."""
-    states = design.STATES[design.SLOSH]
+    states = models.STATES[models.SLOSH]
     n = len(states)
     a = -2.0 * np.eye(n) + np.diag(np.r_[0.0, np.full(n - 2, 2.0)], 1)
     b = np.zeros((n, 2))
@@ -44,19 +47,19 @@ def jordan() -> LinearModel:
     mix = np.eye(n)
     mix[4:, 4:] = ortho_group.rvs(n - 4, random_state=1)
     a, b = mix @ a @ mix.T, mix @ b
-    trim = dict.fromkeys((*design.MEASURED, "delta_e_trim", "phi_trim", "fuel_mass"), 0.0)
+    trim = dict.fromkeys((*models.MEASURED, "delta_e_trim", "phi_trim", "fuel_mass"), 0.0)
     c = np.eye(n)[[0, 1, 3]]
     inputs = ["delta_e", "phi"]
-    return LinearModel(a, b, c, np.zeros((3, 2)), states, inputs, list(design.MEASURED), trim)
+    return LinearModel(a, b, c, np.zeros((3, 2)), states, inputs, list(models.MEASURED), trim)
 
 
-def response(system: ct.StateSpace, z: np.ndarray) -> np.ndarray:
+def response(system: Plant, z: np.ndarray) -> np.ndarray:
     """Frequency response at the points z, shape (points, outputs, inputs), by direct solution."""
     shifted = z[:, None, None] * np.eye(len(system.A)) - system.A
     return system.C @ np.linalg.solve(shifted, np.broadcast_to(system.B, (len(z), *system.B.shape)))
 
 
-def by_control(plant: ct.StateSpace, law: Law, actuator: int) -> tuple[float, ...]:
+def by_control(plant: Plant, law: Law, actuator: int) -> tuple[float, ...]:
     """Gain margins, dB, phase margin, deg, and distance, from points of the frequency response."""
     rates = np.geomspace(1e-3, 0.999 * np.pi / law.period_s, POINTS)
     z = np.exp(1j * rates * law.period_s)
@@ -74,10 +77,11 @@ def by_control(plant: ct.StateSpace, law: Law, actuator: int) -> tuple[float, ..
     )
 
 
-def agree(plant: ct.StateSpace, law: Law, actuator: int) -> bool:
+def agree(plant: Plant, law: Law, actuator: int) -> bool:
     """Whether the loop is stable; its margins are those of python-control."""
     found = margins.margins(plant, law, actuator)
-    poles = ct.feedback(plant, margins.linear(law), 1).poles()
+    blocks = [ct.ss(*block, 0, law.period_s) for block in (plant, margins.linear(law))]
+    poles = ct.feedback(*blocks, 1).poles()
     rates = np.log(poles.astype(complex)) / law.period_s
     assert found.growth_per_s == pytest.approx(rates.real.max(), abs=1e-6)
     if np.abs(poles).max() >= 1.0:
@@ -99,19 +103,19 @@ def test_margins_are_those_of_python_control(package: Package, law: Law) -> None
 
 def test_defective_poles_cost_no_digits() -> None:
     model = jordan()
-    plant = design.sampled(model, design.STATES[design.SLOSH])
+    plant = models.sampled(model, models.STATES[models.SLOSH])
     # As single eigenvalues they are lost.
     assert np.ptp(np.abs(np.linalg.eigvals(plant.A))) > 1e-3
     assert agree(plant, design.design(model), 0) and agree(plant, design.design(model), 1)
 
 
-@pytest.mark.parametrize("configuration", [design.RIGID, design.SLOSH])
+@pytest.mark.parametrize("configuration", [models.RIGID, models.SLOSH])
 @pytest.mark.parametrize("actuator", [0, 1])
 def test_margins_are_where_the_closed_loop_turns_unstable(
     package: Package, configuration: int, actuator: int
 ) -> None:
-    full = design.model(str(package.folder), configuration=configuration)
-    plant = design.sampled(full, design.STATES[configuration])
+    full = models.model(str(package.folder), configuration=configuration)
+    plant = models.sampled(full, models.STATES[configuration])
     law = design.design(full, configuration)
     found = margins.margins(plant, law, actuator)
     assert found.phase_deg > 30.0 and found.distance > 0.5
@@ -125,11 +129,11 @@ def test_margins_are_where_the_closed_loop_turns_unstable(
 def test_ten_times_as_many_frequencies_find_nothing_else(
     package: Package, law: Law, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    vehicles = plants(package, 40)
-    found = [margins.margins(plant, law) for plant in vehicles]
+    flown = plants(package, 40)
+    found = [margins.margins(plant, law) for plant in flown]
     monkeypatch.setattr(margins, "PER_DECADE", 10 * margins.PER_DECADE)
     monkeypatch.setattr(margins, "ABOUT", np.tan(np.linspace(-0.499, 0.499, 160) * np.pi))
-    for plant, before in zip(vehicles, found, strict=True):
+    for plant, before in zip(flown, found, strict=True):
         assert margins.margins(plant, law) == pytest.approx(before, abs=1e-4, nan_ok=True)
 
 
