@@ -14,24 +14,22 @@ import logging
 import shutil
 import sys
 import tempfile
-import zipfile
 from pathlib import Path
 
 try:
-    import numpy as np
     from fmpy import read_model_description
     from fmu_manipulation_toolbox.assembly import Assembly, AssemblyError
     from fmu_manipulation_toolbox.container import FMUContainerError
 
+    import system
     from law import PERIOD_S
-    from system import BadSystem, check_manoeuvre
+    from system import COMMANDS, MEASURED, BadSystem
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
     )
 
 LOGGED = "fmu_manipulation_toolbox"
-MEASURED, COMMANDS = ("V", "gamma", "q"), ("delta_e", "phi")
 # Outputs of the container, by FMU.
 OUTPUTS = {
     "vehicle": (
@@ -40,7 +38,6 @@ OUTPUTS = {
     ),
     "autopilot": ("missed", "saturated"),
 }
-BREAKPOINTS = 8
 
 
 def description(name: str, period_s: float) -> dict[str, object]:
@@ -69,9 +66,8 @@ def build(path: Path, vehicle: Path, autopilot: Path, period_s: float = PERIOD_S
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for fmu, file in (("vehicle", vehicle), ("autopilot", autopilot)):
+            system.read(file)
             shutil.copy(file, folder / f"{fmu}.fmu")
-            if not zipfile.is_zipfile(file):
-                raise BadSystem(f"{file} is no FMU")
         plan = folder / "loop.json"
         plan.write_text(json.dumps(description(path.name, period_s)), encoding="utf-8")
         try:
@@ -84,15 +80,7 @@ def build(path: Path, vehicle: Path, autopilot: Path, period_s: float = PERIOD_S
 
 def commands(manoeuvre: Path) -> dict[str, float]:
     """The manoeuvre of a CSV file as parameters of the container; or BadSystem."""
-    check_manoeuvre(manoeuvre)
-    rows = np.atleast_1d(np.genfromtxt(manoeuvre, delimiter=",", names=True))
-    if len(rows) > BREAKPOINTS:
-        raise BadSystem(f"{manoeuvre}: {len(rows)} rows; the autopilot holds {BREAKPOINTS}")
-    return {
-        f"autopilot.command{i}_{name}": float(value)
-        for i, row in enumerate(rows, start=1)
-        for name, value in zip(("time", "V_change", "gamma"), row, strict=True)
-    }
+    return {f"autopilot.{name}": value for name, value in system.commands(manoeuvre).items()}
 
 
 def main() -> None:

@@ -1,9 +1,10 @@
-"""Design an autopilot on the FMU, export it as an FMU, connect both and fly in two masters."""
+"""Connect vehicle and autopilot by a system structure (SSP), and fly it in three masters."""
 
 from __future__ import annotations
 
 import argparse
 import sys
+import tempfile
 from pathlib import Path
 
 try:
@@ -12,9 +13,10 @@ try:
     from fmpy import extract
 
     import design
+    import system
+    from law import BadLaw, Law
     from margins import margins
-    from masters import NAMES, MasterFailed, fly_fmpy, fly_libcosim
-    from system import BadSystem, build
+    from masters import MasterFailed, fly_ecos, fly_fmpy, fly_libcosim, names
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -26,9 +28,12 @@ import matplotlib.pyplot as plt
 # Relative to each variable's range. The masters round time differently, which the integrator
 # sees; the loop keeps the difference small.
 SAME_FLIGHT = 1e-9
+VERSIONS = ("1.0", "2.0")
+# Outputs that a command changes at once; Ecos reads them after the exchange.
+DIRECT = ("n_z", "delta_e_effective", "phi_effective", "choking_margin")
 PANELS = [
-    ("change of speed, m/s", [("vehicle.V", "flown"), ("manoeuvre.V_change", "wanted")], 1.0),
-    ("$\\gamma$, deg", [("vehicle.gamma", "flown"), ("manoeuvre.gamma_wanted", "wanted")], 57.296),
+    ("change of speed, m/s", [("vehicle.V", "flown"), ("V_change", "wanted")], 1.0),
+    ("$\\gamma$, deg", [("vehicle.gamma", "flown"), ("gamma_wanted", "wanted")], 57.296),
     ("$\\delta_e$, deg", [("vehicle.delta_e_effective", "")], 57.296),
     ("fuel ratio", [("vehicle.phi_effective", "")], 1.0),
     ("slosh, m", [("vehicle.slosh1", "fore"), ("vehicle.slosh2", "aft")], 1.0),
@@ -36,12 +41,15 @@ PANELS = [
 ]
 
 
-def picture(rows: np.ndarray, path: Path) -> None:
-    """Plot the flight against time."""
+def picture(rows: np.ndarray, outputs: list[str], wanted: np.ndarray, path: Path) -> None:
+    """Plot the flight and what is wanted against time."""
     figure, axes = plt.subplots(3, 2, figsize=(9, 6.5), sharex=True, layout="constrained")
     for axis, (label, lines, factor) in zip(axes.T.ravel(), PANELS, strict=True):
         for name, legend in lines:
-            values = rows[:, 1 + NAMES.index(name)] * factor
+            if legend == "wanted":
+                values = np.interp(rows[:, 0], wanted["time_s"], wanted[name]) * factor
+            else:
+                values = rows[:, 1 + outputs.index(name)] * factor
             if name == "vehicle.V":
                 values = values - values[0]
             dashed = {"ls": "--", "color": "k"} if legend == "wanted" else {}
@@ -56,52 +64,98 @@ def picture(rows: np.ndarray, path: Path) -> None:
     plt.close(figure)
 
 
-def agreement(one: np.ndarray, other: np.ndarray) -> float:
+def agreement(
+    one: np.ndarray, other: np.ndarray, outputs: list[str], without: tuple[str, ...] = ()
+) -> float:
     """Largest difference of any of the vehicle's outputs, over its range."""
-    vehicle = [1 + i for i, name in enumerate(NAMES) if name.startswith("vehicle.")]
+    compared = [name for name in outputs if name.startswith("vehicle.")]
+    vehicle = [1 + outputs.index(name) for name in compared if name.split(".")[1] not in without]
     difference = np.abs(one[:, vehicle] - other[:, vehicle]).max(axis=0)
     return float((difference / np.ptp(one[:, vehicle], axis=0)).max())
+
+
+def setting(text: str) -> tuple[str, float]:
+    """NAME=VALUE; a ValueError, if it is not."""
+    name, value = text.split("=")
+    return name, float(value)
 
 
 def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
+    parser.add_argument("--autopilot", type=Path, help="its FMU; default: beside the vehicle's")
+    parser.add_argument(
+        "--python",
+        action="store_true",
+        help="an autopilot in Python instead, designed on the FMU and exported by PythonFMU",
+    )
+    parser.add_argument(
+        "--set",
+        type=setting,
+        action="append",
+        default=[],
+        metavar="NAME=VALUE",
+        help="parameters of the vehicle",
+    )
     parser.add_argument("--manoeuvre", type=Path, default=design.HERE / "manoeuvre.csv")
     parser.add_argument("--stop", type=float, default=150.0, help="duration, s")
     parser.add_argument("--patience", type=float, default=30.0, help="longest pause, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
+    autopilot = options.autopilot or options.fmu.with_name("ahv_autopilot.fmu")
+    for file in (options.fmu, *([] if options.python else [autopilot])):
+        if not file.is_file():
+            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
     options.output.mkdir(parents=True, exist_ok=True)
 
     full = design.model(extract(str(options.fmu)))
-    law = design.design(full)
+    try:
+        law = design.design(full) if options.python else Law.within(autopilot)
+    except BadLaw as failure:
+        sys.exit(f"error: {failure}")
     for actuator, name in enumerate(full.inputs):
-        m = margins(design.sampled(full, design.STATES[design.SLOSH]), law, actuator)
+        plant = design.sampled(full, design.STATES[design.SLOSH], law.period_s)
+        m = margins(plant, law, actuator)
         print(
             f"{name:8} gain {m.gain_down_db:+.1f} to {m.gain_up_db:+.1f} dB, "
             f"phase {m.phase_deg:.0f} deg, distance from -1 {m.distance:.2f}"
         )
+    case = dict(options.set)
+    files = {version: options.output / f"closed_loop_ssp{version[0]}.ssp" for version in VERSIONS}
     try:
-        ssp = build(
-            options.output / "closed_loop.ssp", options.fmu, law, options.manoeuvre, options.stop
-        )
-    except (BadSystem, OSError) as failure:
+        with tempfile.TemporaryDirectory() as folder:
+            if options.python:
+                parts = system.foreign(options.fmu, law, options.manoeuvre, Path(folder))
+            else:
+                parts = system.native(options.fmu, autopilot, options.manoeuvre, case)
+            for version, file in files.items():
+                system.build(file, parts, options.stop, version)
+        wanted = system.check_manoeuvre(options.manoeuvre)
+    except (system.BadSystem, OSError, ValueError) as failure:
         sys.exit(f"error: {failure}")
-    print(f"{ssp}: valid")
+    print(", ".join(map(str, files.values())))
+    one, two = files.values()
     csv = options.output / "libcosim.csv"
     try:
-        rows = fly_libcosim(ssp, csv, options.stop, options.patience)
+        rows = fly_libcosim(two, csv, options.stop, options.patience)
     except MasterFailed as failure:
         sys.exit(f"error: {failure}")
-    picture(rows, options.output / "flight.png")
-    apart = agreement(rows, fly_fmpy(ssp, options.stop))
+    outputs = names(two)
+    picture(rows, outputs, wanted, options.output / "flight.png")
     print(f"{csv}, {options.output / 'flight.png'}: {len(rows)} steps")
-    print(f"libcosim and FMPy differ by {apart:.1e} of a variable's range")
-    if apart > SAME_FLIGHT:
-        sys.exit(f"error: more than {SAME_FLIGHT:.0e}")
+    others = {"FMPy": (fly_fmpy, ())}
+    if not options.python:
+        others["Ecos"] = (fly_ecos, DIRECT)
+    for master, (fly, without) in others.items():
+        try:
+            apart = agreement(rows, fly(one, options.stop), outputs, without)
+        except MasterFailed as failure:
+            print(f"{master} is left out: {failure}")
+            continue
+        print(f"libcosim and {master} differ by {apart:.1e} of a variable's range")
+        if apart > SAME_FLIGHT:
+            sys.exit(f"error: more than {SAME_FLIGHT:.0e}")
 
 
 if __name__ == "__main__":

@@ -61,26 +61,41 @@ def linear(law: Law) -> Plant:
     return Plant(a, b, c)
 
 
-def loop(plant: Plant, pilot: Plant, gain: np.ndarray) -> np.ndarray:
-    """Matrix of plant and autopilot, with its commands multiplied by `gain`, shape (2,)."""
-    return np.block([[plant.A, plant.B * gain @ pilot.C], [pilot.B @ plant.C, pilot.A]])
+class Broken(NamedTuple):
+    """Plant and autopilot with the commands cut: x+ = A x + B u, u = C x closes the loop."""
+
+    A: np.ndarray
+    B: np.ndarray
+    C: np.ndarray
+    period_s: float
+
+    def closed(self, gain: np.ndarray) -> np.ndarray:
+        """Matrix of the loop with the commands multiplied by `gain`, shape (2,)."""
+        return self.A + self.B * gain @ self.C
+
+
+def loop(plant: Plant, law: Law) -> Broken:
+    """The sampled loop, in which a command acts one period late."""
+    pilot, n = linear(law), len(plant.A)
+    a = np.block([[plant.A, np.zeros((n, len(pilot.A)))], [pilot.B @ plant.C, pilot.A]])
+    b = np.vstack([plant.B, np.zeros((len(pilot.A), 2))])
+    return Broken(a, b, np.hstack([np.zeros((2, n)), pilot.C]), law.period_s)
 
 
 def poles(plant: Plant, law: Law, gain: np.ndarray | None = None) -> np.ndarray:
     """Poles of the closed loop, rad/s; commands multiplied by `gain`, shape (2,)."""
-    matrix = loop(plant, linear(law), np.ones(2) if gain is None else gain)
+    matrix = loop(plant, law).closed(np.ones(2) if gain is None else gain)
     return np.log(np.linalg.eigvals(matrix).astype(complex)) / law.period_s
 
 
 class Curve:
     """Nyquist curve of the loop broken at one actuator, over the frequency in rad/s."""
 
-    def __init__(self, plant: Plant, law: Law, actuator: int) -> None:
-        self.period_s = law.period_s
-        pilot, gain = linear(law), np.ones(2)
-        closed = loop(plant, pilot, gain)
+    def __init__(self, whole: Broken, actuator: int) -> None:
+        self.period_s, gain = whole.period_s, np.ones(2)
+        closed = whole.closed(gain)
         gain[actuator] = 0.0
-        self.broken = loop(plant, pilot, gain)
+        self.broken = whole.closed(gain)
         self.cut = closed - self.broken
         self.zeros, self.poles = (np.linalg.eigvals(m)[:, None] for m in (closed, self.broken))
 
@@ -134,8 +149,13 @@ class Curve:
 
 def margins(plant: Plant, law: Law, actuator: int = 0) -> Margins:
     """Margins at delta_e (0) or phi (1)."""
-    curve = Curve(plant, law, actuator)
-    ends = np.log(curve.zeros.ravel().astype(complex)) / law.period_s
+    return margins_of(loop(plant, law), actuator)
+
+
+def margins_of(whole: Broken, actuator: int = 0) -> Margins:
+    """The same of any loop."""
+    curve = Curve(whole, actuator)
+    ends = np.log(curve.zeros.ravel().astype(complex)) / whole.period_s
     swing = ends[np.abs(ends.imag) > 0.5]
     growth, damping = ends.real.max(), min(-swing.real / np.abs(swing), default=1.0)
     if growth >= 0.0:

@@ -1,4 +1,4 @@
-"""One .ssp file in two independent masters: FMPy and DNV's libcosim.
+"""A system in three independent masters: FMPy, DNV's libcosim and Ecos.
 
 `python masters.py SSP CSV STOP_S` flies it in libcosim and writes each row at once, so that rows
 are kept if a component crashes the process.
@@ -9,24 +9,20 @@ from __future__ import annotations
 import subprocess
 import sys
 import time
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import ParameterSet, read_ssd
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
 from libcosimpy.CosimObserver import CosimObserver
 
 from law import PERIOD_S
-from system import connectors
+from system import SET, SSP
 
-# All outputs; the masters are compared by those of the vehicle, which come last.
-NAMES = [
-    f"{component}.{name}"
-    for component, kinds in connectors().items()
-    for name, kind in kinds.items()
-    if kind == "output"
-]
 # Patience before the first step, while the process loads libraries.
 START_S = 60.0
 # Interval at which the output file of the master is checked.
@@ -37,11 +33,59 @@ class MasterFailed(Exception):
     """The master or a component ended early or hung; the message has the time of the last row."""
 
 
+def names(ssp: Path) -> list[str]:
+    """All outputs in a system, as component.name, in its order; the vehicle's come last."""
+    with zipfile.ZipFile(ssp) as archive:
+        structure = ElementTree.fromstring(archive.read("SystemStructure.ssd"))
+    return [
+        f"{component.get('name')}.{connector.get('name')}"
+        for component in structure.iter(f"{{{SSP}Description}}Component")
+        for connector in component.iter(f"{{{SSP}Description}}Connector")
+        if connector.get("kind") == "output"
+    ]
+
+
+def parameters(ssp: Path) -> ParameterSet:
+    """All parameters in a system of SSP 1.0, by component.name, for FMPy, which reads none."""
+    every = ParameterSet(parameters=[])
+    for component in read_ssd(str(ssp), validate=False).system.elements:
+        for binding in component.parameterBindings:
+            for parameter in binding.parameterValues[0].parameters:
+                parameter.name = f"{component.name}.{parameter.name}"
+                every.parameters.append(parameter)
+    return every
+
+
 def fly_fmpy(ssp: Path, stop_s: float) -> np.ndarray:
-    """Rows of time, s, and NAMES at the end of each step, in FMPy's SSP master."""
+    """Rows of time, s, and outputs at the end of each step, in FMPy's SSP master."""
     # Half a step less, because the master sums time and rounding must not add a step.
-    rows = simulate_ssp(str(ssp), stop_time=stop_s - 0.5 * PERIOD_S, step_size=PERIOD_S)
-    return np.column_stack([rows["time"] + PERIOD_S, *[rows[name] for name in NAMES]])
+    rows = simulate_ssp(
+        str(ssp),
+        stop_time=stop_s - 0.5 * PERIOD_S,
+        step_size=PERIOD_S,
+        parameter_set=parameters(ssp),
+    )
+    return np.column_stack([rows["time"] + PERIOD_S, *[rows[name] for name in names(ssp)]])
+
+
+def fly_ecos(ssp: Path, stop_s: float) -> np.ndarray:
+    """The same in Ecos, which reads SSP 1.0; or MasterFailed, if its library cannot be loaded.
+
+    It exchanges values at the end of a step and reads outputs then: those that depend on a command
+    at once are those of the next step.
+    """
+    try:
+        from ecospy import EcosSimulation
+    except (ImportError, OSError) as failure:
+        raise MasterFailed(f"Ecos cannot be loaded: {failure}") from failure
+    simulation = EcosSimulation(PERIOD_S, ssp_path=str(ssp))
+    simulation.init(parameter_set=SET)
+    outputs, rows = [name.replace(".", "::") for name in names(ssp)], []
+    for k in range(round(stop_s / PERIOD_S)):
+        simulation.step(1)
+        rows.append([(k + 1) * PERIOD_S, *map(simulation.get_real, outputs)])
+    simulation.terminate()
+    return np.array(rows)
 
 
 def fly_libcosim(ssp: Path, csv: Path, stop_s: float, patience_s: float = 30.0) -> np.ndarray:
@@ -87,19 +131,20 @@ def step_libcosim(ssp: Path, csv: Path, stop_s: float) -> None:
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer)
     slaves = {info.name.decode(): info.index for info in execution.slave_infos()}
-    wanted = {}
-    for component, slave in slaves.items():
+    wanted, outputs = {}, names(ssp)
+    for output in outputs:
+        component, name = output.split(".")
+        slave = slaves[component]
         variables = {v.name.decode(): v.reference for v in execution.slave_variables(slave)}
-        names = [name.split(".")[1] for name in NAMES if name.startswith(f"{component}.")]
-        wanted[component] = (slave, [variables[name] for name in names])
+        wanted.setdefault(component, (slave, []))[1].append(variables[name])
     with csv.open("w", encoding="utf-8", buffering=1) as file:
-        print("time_s", *NAMES, sep=",", file=file)
+        print("time_s", *outputs, sep=",", file=file)
         for k in range(round(stop_s / PERIOD_S)):
             if not execution.step():
                 sys.exit("libcosim gave up")
             values = [(k + 1) * PERIOD_S]
-            for component in connectors():
-                values += observer.last_real_values(*wanted[component])
+            for slave, references in wanted.values():
+                values += observer.last_real_values(slave, references)
             print(*map(float, values), sep=",", file=file)
 
 

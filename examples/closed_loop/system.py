@@ -1,131 +1,212 @@
-"""The closed loop as one file: three FMUs connected by a system structure (SSP 1.0)."""
+"""The closed loop as one file: FMUs connected by a system structure, SSP 1.0 or 2.0.
+
+Gains are in the autopilot's FMU. In SSP 2.0 the manoeuvre is in autopilot.ssv and the vehicle's
+case in vehicle.ssv.
+"""
 
 from __future__ import annotations
 
-import tempfile
 import zipfile
+from collections.abc import Mapping
+from math import isfinite
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from fmpy import read_model_description
-from fmpy.ssp.ssd import SystemStructureDescription, get_connections, read_ssd
+from fmpy.model_description import ModelVariable
 from pythonfmu.builder import FmuBuilder
 
 from law import Law
 
 HERE = Path(__file__).resolve().parent
+SSP = "http://ssp-standard.org/SSP1/SystemStructure"
+MEASURED, WANTED, COMMANDS = ("V", "gamma", "q"), ("V_change", "gamma_wanted"), ("delta_e", "phi")
 # Connections from outputs to inputs.
-CONNECTIONS = [
-    ("manoeuvre", "V_change", "autopilot", "V_change"),
-    ("manoeuvre", "gamma_wanted", "autopilot", "gamma_wanted"),
-    ("vehicle", "V", "autopilot", "V"),
-    ("vehicle", "gamma", "autopilot", "gamma"),
-    ("vehicle", "q", "autopilot", "q"),
-    ("autopilot", "delta_e", "vehicle", "delta_e"),
-    ("autopilot", "phi", "vehicle", "phi"),
+LOOP = [
+    *[("vehicle", name, "autopilot", name) for name in MEASURED],
+    *[("autopilot", name, "vehicle", name) for name in COMMANDS],
 ]
+FROM_MANOEUVRE = [("manoeuvre", name, "autopilot", name) for name in WANTED]
 # Further outputs to record.
 RECORDED = [
     *[("vehicle", name) for name in ("h", "alpha", "eta1", "slosh1", "slosh2", "n_z")],
     *[("vehicle", name) for name in ("delta_e_effective", "phi_effective", "choking_margin")],
     *[("autopilot", name) for name in ("missed", "saturated")],
 ]
+HEADER = '<?xml version="1.0" encoding="UTF-8"?>\n'
+# In files of SSP 1.0 parameter sets stand within the structure: Ecos reads no others, and applies
+# those of one name.
+INLINE, SET = "1.0", "initial"
+# Breakpoints of the native autopilot.
+BREAKPOINTS = 8
 
 
 class BadSystem(Exception):
-    """The system structure names a missing connector, or the manoeuvre is invalid."""
+    """The system has no such variable, or the manoeuvre is invalid."""
 
 
-def connectors() -> dict[str, dict[str, str]]:
-    """Kind of every connector, by component and name."""
-    found: dict[str, dict[str, str]] = {"manoeuvre": {}, "autopilot": {}, "vehicle": {}}
-    for source, output, target, into in CONNECTIONS:
-        found[source][output] = "output"
-        found[target][into] = "input"
-    for component, name in RECORDED:
-        found[component][name] = "output"
-    return found
+class Component(NamedTuple):
+    """An FMU and its parameters."""
+
+    name: str
+    fmu: Path
+    parameters: Mapping[str, float] = {}
 
 
-def description(period_s: float, stop_s: float) -> str:
-    """SystemStructure.ssd."""
-    components = "".join(
-        f'<ssd:Component name="{component}" type="application/x-fmu-sharedlibrary" '
-        f'source="resources/{component}.fmu"><ssd:Connectors>'
-        + "".join(
-            f'<ssd:Connector name="{name}" kind="{kind}"><ssc:Real/></ssd:Connector>'
-            for name, kind in names.items()
+def check_manoeuvre(path: Path) -> np.ndarray:
+    """Rows of a manoeuvre, whose columns are those wanted, and whose times increase."""
+    columns = ",".join(["time_s", *WANTED])
+    with path.open(encoding="utf-8") as lines:
+        if lines.readline().strip() != columns:
+            raise BadSystem(f"{path}: the first line must be {columns}")
+    rows = np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True))
+    times = rows["time_s"]
+    if not times.size or (np.diff(times) <= 0.0).any():
+        raise BadSystem(f"{path}: time_s must increase from row to row")
+    return rows
+
+
+def commands(manoeuvre: Path) -> dict[str, float]:
+    """The manoeuvre of a CSV file as parameters of the native autopilot; or BadSystem."""
+    rows = check_manoeuvre(manoeuvre)
+    if len(rows) > BREAKPOINTS:
+        raise BadSystem(f"{manoeuvre}: {len(rows)} rows; the autopilot holds {BREAKPOINTS}")
+    return {
+        f"command{i}_{name}": float(value)
+        for i, row in enumerate(rows, start=1)
+        for name, value in zip(("time", "V_change", "gamma"), row, strict=True)
+    }
+
+
+def native(
+    vehicle: Path, autopilot: Path, manoeuvre: Path, case: Mapping[str, float]
+) -> list[Component]:
+    """The loop of the FMUs ahv and ahv_autopilot; `case`: parameters of the vehicle."""
+    return [
+        Component("autopilot", autopilot, commands(manoeuvre)),
+        Component("vehicle", vehicle, case),
+    ]
+
+
+def foreign(vehicle: Path, law: Law, manoeuvre: Path, folder: Path) -> list[Component]:
+    """The loop with an autopilot and a manoeuvre in Python, whose FMUs are built in `folder`."""
+    check_manoeuvre(manoeuvre)
+    law.save(folder / "law.json")
+    (folder / "manoeuvre.csv").write_text(manoeuvre.read_text(encoding="utf-8"), "utf-8")
+    files = {
+        "manoeuvre": [folder / "manoeuvre.csv"],
+        "autopilot": [HERE / "law.py", folder / "law.json"],
+    }
+    parts = [
+        Component(name, FmuBuilder.build_FMU(HERE / f"{name}.py", folder / f"{name}.fmu", own))
+        for name, own in files.items()
+    ]
+    return [*parts, Component("vehicle", vehicle)]
+
+
+def build(path: Path, components: list[Component], stop_s: float, version: str = "2.0") -> Path:
+    """Write the .ssp file of this version of the standard; or BadSystem."""
+    names = {component.name for component in components}
+    connections = LOOP + (FROM_MANOEUVRE if "manoeuvre" in names else [])
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        described = []
+        for component in components:
+            variables = read(component.fmu)
+            connectors = kinds(component.name, connections)
+            for name, kind in connectors.items():
+                if name not in variables or variables[name].causality != kind:
+                    raise BadSystem(f"{component.fmu}: there is no {kind} {name}")
+            archive.write(component.fmu, f"resources/{component.name}.fmu")
+            values = parameter_set(component, variables, version) if component.parameters else ""
+            if values and version != INLINE:
+                archive.writestr(f"resources/{component.name}.ssv", HEADER + values)
+            described.append(element(component, connectors, values if version == INLINE else ""))
+        archive.writestr(
+            "SystemStructure.ssd", structure("".join(described), connections, stop_s, version)
         )
-        + "</ssd:Connectors></ssd:Component>\n"
-        for component, names in connectors().items()
+    return path
+
+
+def read(fmu: Path) -> dict[str, ModelVariable]:
+    """Variables of an FMU by name; or BadSystem."""
+    try:
+        return {v.name: v for v in read_model_description(str(fmu)).modelVariables}
+    except (zipfile.BadZipFile, KeyError) as failure:
+        raise BadSystem(f"{fmu} is no FMU: {failure}") from failure
+
+
+def kinds(component: str, connections: list[tuple[str, str, str, str]]) -> dict[str, str]:
+    """Kind of every connector of a component, by name."""
+    found = {}
+    for source, output, target, into in connections:
+        found |= {output: "output"} if source == component else {}
+        found |= {into: "input"} if target == component else {}
+    return found | {name: "output" for owner, name in RECORDED if owner == component}
+
+
+def element(component: Component, connectors: dict[str, str], values: str) -> str:
+    """A component of SystemStructure.ssd, with its parameter set or a reference to it."""
+    inner = "".join(
+        f'<ssd:Connector name="{name}" kind="{kind}"><ssc:Real/></ssd:Connector>\n'
+        for name, kind in connectors.items()
     )
-    connections = "".join(
+    if values:
+        binding = (
+            f"<ssd:ParameterBinding>\n<ssd:ParameterValues>\n{values}</ssd:ParameterValues>\n"
+            "</ssd:ParameterBinding>\n"
+        )
+    else:
+        binding = (
+            '<ssd:ParameterBinding type="application/x-ssp-parameter-set" '
+            f'source="resources/{component.name}.ssv"/>\n'
+        )
+    bindings = f"<ssd:ParameterBindings>\n{binding}</ssd:ParameterBindings>\n"
+    bindings = bindings if component.parameters else ""
+    return (
+        f'<ssd:Component name="{component.name}" type="application/x-fmu-sharedlibrary" '
+        f'source="resources/{component.name}.fmu">\n<ssd:Connectors>\n{inner}</ssd:Connectors>\n'
+        f"{bindings}</ssd:Component>\n"
+    )
+
+
+def parameter_set(component: Component, variables: dict[str, ModelVariable], version: str) -> str:
+    """The parameter set of a component."""
+    rows = []
+    for name, value in component.parameters.items():
+        if name not in variables or variables[name].causality != "parameter":
+            raise BadSystem(f"{component.fmu}: there is no parameter {name}")
+        if variables[name].type != "Real":
+            # libcosim and Ecos set no enumerations, and FMPy takes every Boolean for true.
+            raise BadSystem(f"{name} is not real: masters do not set it alike")
+        if not isfinite(value):
+            raise BadSystem(f"{name} = {value} is refused: a number is expected")
+        rows.append(f'<ssv:Parameter name="{name}"><ssv:Real value="{value!r}"/></ssv:Parameter>\n')
+    return (
+        f'<ssv:ParameterSet version="{version}" name="{SET}"\n'
+        f'    xmlns:ssv="{SSP}ParameterValues" xmlns:ssc="{SSP}Common">\n'
+        f"<ssv:Parameters>\n{''.join(rows)}</ssv:Parameters>\n</ssv:ParameterSet>\n"
+    )
+
+
+def structure(
+    elements: str, connections: list[tuple[str, str, str, str]], stop_s: float, version: str
+) -> str:
+    """SystemStructure.ssd."""
+    lines = "".join(
         f'<ssd:Connection startElement="{a}" startConnector="{x}" '
         f'endElement="{b}" endConnector="{y}"/>\n'
-        for a, x, b, y in CONNECTIONS
+        for a, x, b, y in connections
     )
-    return f"""<?xml version="1.0" encoding="UTF-8"?>
-<ssd:SystemStructureDescription version="1.0" name="closed_loop"
-    xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
-    xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon">
+    return f"""{HEADER}<ssd:SystemStructureDescription version="{version}" name="closed_loop"
+    xmlns:ssd="{SSP}Description"
+    xmlns:ssc="{SSP}Common">
 <ssd:System name="closed_loop">
 <ssd:Elements>
-{components}</ssd:Elements>
+{elements}</ssd:Elements>
 <ssd:Connections>
-{connections}</ssd:Connections>
+{lines}</ssd:Connections>
 </ssd:System>
 <ssd:DefaultExperiment startTime="0" stopTime="{stop_s}"/>
 </ssd:SystemStructureDescription>
 """
-
-
-def check_manoeuvre(path: Path) -> None:
-    """Check that the columns are those of the component, and that times increase."""
-    columns = ",".join(["time_s", *connectors()["manoeuvre"]])
-    with path.open(encoding="utf-8") as lines:
-        if lines.readline().strip() != columns:
-            raise BadSystem(f"{path}: the first line must be {columns}")
-    times = np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True)["time_s"])
-    if not times.size or (np.diff(times) <= 0.0).any():
-        raise BadSystem(f"{path}: time_s must increase from row to row")
-
-
-def build(path: Path, vehicle: Path, law: Law, manoeuvre: Path, stop_s: float) -> Path:
-    """Build the FMUs of autopilot and manoeuvre and write the .ssp file; or BadSystem."""
-    check_manoeuvre(manoeuvre)
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        law.save(folder / "law.json")
-        (folder / "manoeuvre.csv").write_text(manoeuvre.read_text(encoding="utf-8"), "utf-8")
-        parts = {"autopilot": [HERE / "law.py", folder / "law.json"]}
-        parts["manoeuvre"] = [folder / "manoeuvre.csv"]
-        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-            archive.writestr("SystemStructure.ssd", description(law.period_s, stop_s))
-            for component, files in parts.items():
-                fmu = FmuBuilder.build_FMU(
-                    HERE / f"{component}.py", folder / f"{component}.fmu", files
-                )
-                archive.write(fmu, f"resources/{component}.fmu")
-            archive.write(vehicle, "resources/vehicle.fmu")
-    validate(path)
-    return path
-
-
-def validate(path: Path) -> SystemStructureDescription:
-    """Check the file against the schema and every connector against its FMU."""
-    structure = read_ssd(str(path), validate=True)
-    with tempfile.TemporaryDirectory() as name, zipfile.ZipFile(path) as archive:
-        for component in structure.system.elements:
-            if component.source not in archive.namelist():
-                raise BadSystem(f"{path.name}: {component.source} is missing")
-            fmu = archive.extract(component.source, name)
-            variables = {v.name: v for v in read_model_description(fmu).modelVariables}
-            for connector in component.connectors:
-                variable = variables.get(connector.name)
-                if variable is None or variable.causality != connector.kind:
-                    raise BadSystem(
-                        f"{path.name}: {component.name} has no {connector.kind} {connector.name}"
-                    )
-    if len(get_connections(structure.system)) != len(structure.system.connections):
-        raise BadSystem(f"{path.name}: a connection leads nowhere")
-    return structure

@@ -5,6 +5,7 @@ from __future__ import annotations
 import tempfile
 import time
 import zipfile
+from contextlib import suppress
 from functools import cache
 from io import BytesIO
 from typing import NamedTuple
@@ -57,20 +58,31 @@ class Task(NamedTuple):
     vehicles: np.ndarray
 
 
+def unzipped(fmu: bytes) -> tempfile.TemporaryDirectory[str]:
+    """The FMU's folder."""
+    folder = tempfile.TemporaryDirectory(prefix="ahv_")
+    with zipfile.ZipFile(BytesIO(fmu)) as archive:
+        archive.extractall(folder.name)
+    return folder
+
+
 @cache
-def opened(fmus: Loaded) -> tuple[Loop, Linearizer, list[tempfile.TemporaryDirectory[str]]]:
-    """Instances, made once in every worker, and the folders that are removed with it."""
-    folders = [tempfile.TemporaryDirectory(prefix="ahv_") for _ in fmus]
-    for fmu, folder in zip(fmus, folders, strict=True):
-        with zipfile.ZipFile(BytesIO(fmu)) as archive:
-            archive.extractall(folder.name)
-    loop, vehicle = (folder.name for folder in folders)
-    return Loop(loop, OUTPUTS), models.linearizer(vehicle), folders
+def opened_loop(fmu: bytes) -> tuple[Loop, tempfile.TemporaryDirectory[str]]:
+    """An instance, made once in every worker, and the folder that is removed with it."""
+    folder = unzipped(fmu)
+    return Loop(folder.name, OUTPUTS), folder
+
+
+@cache
+def opened_vehicle(fmu: bytes) -> tuple[Linearizer, tempfile.TemporaryDirectory[str]]:
+    """The same of the vehicle alone."""
+    folder = unzipped(fmu)
+    return models.linearizer(folder.name), folder
 
 
 def fly_part(fmus: Loaded, task: Task) -> tuple[bytes, float]:
     """A Parquet file of the task's flights, and the seconds that they took, once all is loaded."""
-    opened(fmus)
+    opened_loop(fmus.loop)
     begin = time.monotonic()
     table = pa.Table.from_pylist(fly_all(fmus, task), SCHEMA)
     with BytesIO() as file:
@@ -80,7 +92,7 @@ def fly_part(fmus: Loaded, task: Task) -> tuple[bytes, float]:
 
 def fly_all(fmus: Loaded, task: Task) -> list[dict[str, object]]:
     """One row for every vehicle: what varied, margins at the elevator, and the flight."""
-    loop, linearizer, _ = opened(fmus)
+    loop, linearizer = opened_loop(fmus.loop)[0], opened_vehicle(fmus.vehicle)[0]
     return [fly_one(loop, linearizer, task, vehicle) for vehicle in task.vehicles]
 
 
@@ -89,6 +101,16 @@ def margins_of(linearizer: Linearizer, law: Law, vehicle: np.ndarray) -> tuple[M
     full = models.model(linearizer, **parameters(vehicle))
     plant = models.sampled(full, models.STATES[models.SLOSH], law.period_s)
     return margins(plant, law), full.trim
+
+
+def margins_part(vehicle_fmu: bytes, law: Law, vehicles: np.ndarray) -> np.ndarray:
+    """Distances of the Nyquist curves from -1; 0 if the loop is unstable, or there is no trim."""
+    linearizer, _ = opened_vehicle(vehicle_fmu)
+    distances = np.zeros(len(vehicles))
+    for i, vehicle in enumerate(vehicles):
+        with suppress(FMUError):
+            distances[i] = margins_of(linearizer, law, vehicle)[0].distance
+    return np.nan_to_num(distances)
 
 
 def fly_one(

@@ -107,7 +107,11 @@ def fly(
     flying: dict[Future, range] = {}
 
     def submit() -> None:
-        cores = max(1, sum(client.ncores().values()))
+        try:
+            cores = max(1, sum(client.ncores().values()))
+        except OSError:
+            # Without a scheduler; what is flown says so.
+            return
         while len(flying) < AHEAD * cores and (flights := batches.next(cores)):
             mine = task._replace(vehicles=vehicles[flights.start : flights.stop])
             future = client.submit(fly_part, shared, mine, retries=RETRIES, pure=False)
@@ -116,16 +120,24 @@ def fly(
 
     submit()
     for future in flown:
-        flights = flying.pop(future)
-        if future.status != "finished":
-            # Without a scheduler the exception is not available.
-            why = future.exception() or f"{future.status}: the scheduler is gone"
-            yield f"flights {flights.start} to {flights.stop - 1}: {why}"
+        flights, outcome = flying.pop(future), result(future)
+        if isinstance(outcome, str):
+            yield f"flights {flights.start} to {flights.stop - 1}: {outcome}"
         else:
-            content, seconds = future.result()
+            content, seconds = outcome
             parts.write(flights.start, content, len(flights))
             batches.flown(len(flights), seconds)
-            future.release()
             yield len(flights)
         if client.status == "running":
             submit()
+
+
+def result(future: Future) -> tuple[bytes, float] | str:
+    """What `fly_part` returned, or why it did not."""
+    try:
+        if future.status == "finished":
+            return future.result()
+        # Without a scheduler the exception is not available.
+        return str(future.exception() or f"{future.status}: the scheduler is gone")
+    except OSError:
+        return "the scheduler is gone"

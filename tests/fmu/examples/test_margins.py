@@ -138,7 +138,7 @@ def test_ten_times_as_many_frequencies_find_nothing_else(
 
 
 def test_a_curve_that_rounding_has_falsified_is_refused(package: Package, law: Law) -> None:
-    curve = margins.Curve(plants(package, 1)[0], law, 0)
+    curve = margins.Curve(margins.loop(plants(package, 1)[0], law), 0)
     rates = np.array([0.1, 10.0])
     curve.check(rates)
     curve.zeros = curve.zeros * (1 + 1e-5)
