@@ -24,7 +24,7 @@ CONNECT_S = 10
 RETRIES = 3
 # The first batches show how long a flight takes; the others take so long that a lost worker loses
 # little, and the client writes no more than so many files per second.
-FIRST, AIM_S, FILES_PER_S = 8, 5.0, 10.0
+FIRST, AIM_S, LEAST_S, FILES_PER_S = 8, 5.0, 1.0, 10.0
 # Batches that are at the scheduler, per core: one that is flown, and one that waits.
 AHEAD = 2
 # Files that every worker imports.
@@ -88,9 +88,10 @@ class Batches:
         size = FIRST
         if self._flights:
             aim_s = max(AIM_S, cores / FILES_PER_S)
+            per_s = self._flights / self._seconds
             # Towards the end shorter ones, so that all cores end together.
-            share = ceil(sum(map(len, self._missing)) / (AHEAD * cores))
-            size = max(FIRST, min(round(aim_s * self._flights / self._seconds), share))
+            share = max(ceil(sum(map(len, self._missing)) / (AHEAD * cores)), LEAST_S * per_s)
+            size = max(FIRST, round(min(aim_s * per_s, share)))
         gap = self._missing.pop(0)
         if len(gap) > size:
             self._missing.insert(0, gap[size:])

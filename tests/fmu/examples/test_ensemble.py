@@ -26,6 +26,7 @@ import batch
 import cluster as dask_cluster
 import container
 import ensemble
+import replay
 import summary
 from batch import Loaded, Task, fly_all
 from harness import Package
@@ -240,8 +241,8 @@ def test_batches_are_sized_by_time_and_end_together() -> None:
         assert covered == [*range(10), *range(50, 1_000_000)]
         sizes = [len(flights) for flights in flown]
         assert max(sizes) <= 100 * longest_s
-        assert len(flown) < 1_000_000 / max(sizes) + 20 * cores
-        assert sizes[-1] <= dask_cluster.FIRST
+        assert len(flown) < 1_000_000 / max(sizes) + 10 * cores
+        assert sizes[-1] <= 100 * dask_cluster.LEAST_S
 
 
 def test_an_unreachable_scheduler_is_named(
@@ -327,6 +328,78 @@ def test_a_flight_that_ends_early_is_a_row_with_reason_and_time(fmus: Loaded, ta
     until_s = float(re.search(r"at t = ([\d.]+) s", row["ended"])[1])
     assert until_s - 2 * batch.STEP_S < row["flown_s"] <= until_s < 60.0
     assert len(row["V_m_per_s"]) == 1 + int(row["flown_s"] / batch.SAMPLE_S)
+
+
+def script(name: str, package: Package, output: Path, *options: str) -> str:
+    """Run another script on an ensemble to its end; what it prints."""
+    line = command(package, output, *options)
+    line[1] = str(SCRIPT.with_name(f"{name}.py"))
+    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=PATIENCE_S)
+    return done.stdout + done.stderr
+
+
+def test_the_worst_flights_are_replayed_from_their_rows(package: Package, flown: Path) -> None:
+    """Bit for bit, in an instance of its own."""
+    said = script("replay", package, flown)
+    assert "least phase margin: as in the ensemble, bit for bit" in said
+    assert (flown / "worst.png").stat().st_size > 10_000
+    assert "flight 7, flight 7: as in the ensemble" in script(
+        "replay", package, flown, "--number", "7"
+    )
+    assert f"error: there is no flight {FLIGHTS}" in script(
+        "replay", package, flown, "--number", str(FLIGHTS)
+    )
+
+
+def test_a_row_that_is_not_its_flight_is_named(fmus: Loaded, task: Task) -> None:
+    (row,) = fly_all(fmus, task._replace(vehicles=sample(1, 1)))
+    again = replay.fly(fmus, task, row)
+    assert replay.same(again, row)
+    row["gamma_rad"][-1] = np.nextafter(row["gamma_rad"][-1], 1.0)
+    assert not replay.same(again, row)
+
+
+def test_the_worst_are_picked() -> None:
+    """Of stable, unstable, ended and untrimmed vehicles."""
+    table = pa.table(
+        {
+            "trimmed": [True, True, True, True, True, False],
+            "ended": ["", "alpha", "slosh1", "", "", "no trim"],
+            "flown_s": [20.0, 7.0, 5.0, 20.0, 20.0, 0.0],
+            "growth_per_s": [-0.1, 0.9, 0.2, 0.3, -0.2, None],
+            "phase_deg": [12.0, np.nan, np.nan, np.nan, 9.0, None],
+        }
+    )
+    assert replay.worst(table) == {
+        "ended first": 2,
+        "fastest growth": 3,
+        "least phase margin": 4,
+    }
+
+
+def test_probabilities_have_their_intervals() -> None:
+    """By Wilson: 5 of 50, from the formula; and 0 of 20, which excludes more than 16 %."""
+    n, p, z = 50, 0.1, 1.959964
+    middle = (p + z**2 / (2 * n)) / (1 + z**2 / n)
+    half = z / (1 + z**2 / n) * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
+    assert summary.interval(5, n) == pytest.approx((middle - half, middle + half), abs=1e-6)
+    assert summary.interval(0, 20) == pytest.approx((0.0, 0.161), abs=5e-4)
+
+
+def test_sensitivity_is_found_where_it_is(package: Package, tmp_path: Path) -> None:
+    """The coefficient set and the liquid decide; 64 samples show that."""
+    line = [sys.executable, str(SCRIPT.with_name("sensitivity.py")), "--fmu", str(package.path)]
+    line += ["--output", str(tmp_path), "--samples"]
+    done = subprocess.run([*line, "64"], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    tables = done.stdout.split("|---|---|---|")[1:]
+    for table in tables:
+        names = re.findall(r"^\| `(\w+)`", table, re.MULTILINE)
+        assert set(names) == set(VARIED)
+        assert set(names[:3]) <= {"aero", "slosh_damping", "slosh_frequency", "fuel_fraction"}
+    assert (tmp_path / "sensitivity.png").stat().st_size > 10_000
+    done = subprocess.run([*line, "60"], capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and done.stderr == "error: --samples 60 is no power of two\n"
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,12 @@ SCRIPTS = (
     "closed_loop/fly.py",
     "closed_loop/sloshing.py",
     "closed_loop/coupling.py",
+    "closed_loop/container.py",
+    "closed_loop/steps.py",
     "ensemble/ensemble.py",
+    "ensemble/replay.py",
+    "ensemble/sensitivity.py",
+    "ensemble/rates.py",
     "gusts/gusts.py",
 )
 
@@ -34,15 +39,16 @@ def run(script: str, *options: str, **environment: str) -> subprocess.CompletedP
 def test_a_missing_package_is_named_with_the_command_that_brings_it(
     script: str, tmp_path: Path
 ) -> None:
-    (tmp_path / "control.py").write_text("raise ModuleNotFoundError(name='control')\n", "utf-8")
+    (tmp_path / "fmpy.py").write_text("raise ModuleNotFoundError(name='fmpy')\n", "utf-8")
     done = run(script, PYTHONPATH=str(tmp_path))
     assert done.returncode == 1
-    assert done.stderr.startswith("control is missing: pip install")
+    assert done.stderr.startswith("fmpy is missing: pip install")
 
 
 @pytest.mark.parametrize("script", SCRIPTS)
 def test_a_missing_fmu_is_named_with_the_command_that_makes_it(script: str, tmp_path: Path) -> None:
-    done = run(script, "--fmu", str(tmp_path / "none.fmu"), "--output", str(tmp_path / "out"))
+    output = [] if script == "closed_loop/steps.py" else ["--output", str(tmp_path / "out")]
+    done = run(script, "--fmu", str(tmp_path / "none.fmu"), *output)
     assert done.returncode == 1
     assert done.stderr.startswith("error: ") and "none.fmu" in done.stderr
     assert "run `cargo ahv package`" in done.stderr
