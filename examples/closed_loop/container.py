@@ -22,7 +22,7 @@ try:
     from fmu_manipulation_toolbox.container import FMUContainerError
 
     import system
-    from law import PERIOD_S
+    from law import PERIOD_S, autopilot_beside
     from system import COMMANDS, MEASURED, BadSystem
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -87,15 +87,16 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--autopilot", type=Path, default=Path("target/ahv_autopilot.fmu"))
+    parser.add_argument("--autopilot", type=Path, help="its FMU; default: beside the vehicle's")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop/loop.fmu"))
     options = parser.parse_args()
-    for file in (options.fmu, options.autopilot):
+    autopilot = options.autopilot or autopilot_beside(options.fmu)
+    for file in (options.fmu, autopilot):
         if not file.is_file():
             sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
     options.output.parent.mkdir(parents=True, exist_ok=True)
     try:
-        build(options.output, options.fmu, options.autopilot)
+        build(options.output, options.fmu, autopilot)
     except (BadSystem, OSError) as failure:
         sys.exit(f"error: {failure}")
     count = len(read_model_description(str(options.output)).modelVariables)

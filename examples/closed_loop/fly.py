@@ -14,7 +14,7 @@ try:
 
     import design
     import system
-    from law import BadLaw, Law
+    from law import BadLaw, Law, autopilot_beside
     from margins import margins
     from masters import MasterFailed, fly_ecos, fly_fmpy, fly_libcosim, names
 except ModuleNotFoundError as missing:
@@ -103,7 +103,7 @@ def main() -> None:
     parser.add_argument("--patience", type=float, default=30.0, help="longest pause, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    autopilot = options.autopilot or options.fmu.with_name("ahv_autopilot.fmu")
+    autopilot = options.autopilot or autopilot_beside(options.fmu)
     for file in (options.fmu, *([] if options.python else [autopilot])):
         if not file.is_file():
             sys.exit(f"error: {file} does not exist: run `cargo ahv package`")

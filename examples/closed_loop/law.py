@@ -96,6 +96,11 @@ class Law:
         return max(own, key=lambda law: law.fuel_fraction)
 
 
+def autopilot_beside(vehicle: Path) -> Path:
+    """Where `cargo ahv package` puts the autopilot's FMU, beside that of the vehicle."""
+    return vehicle.with_name(vehicle.name.replace("ahv", "ahv_autopilot", 1))
+
+
 def load_schedule(text: str) -> list[Law]:
     """Read the designs that `save_schedule` wrote."""
     return [

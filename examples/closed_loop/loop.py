@@ -48,8 +48,9 @@ class Loop:
         self._is_used = False
         references = [self.variables[name].valueReference for name in outputs]
         self._out = (ctypes.c_uint32 * len(outputs))(*references)
-        # FMPy's wrappers cost more than the calls.
-        library = ctypes.CDLL(self._fmu.dll._name)
+        # FMPy's wrappers cost more than the calls, and so does releasing the interpreter's lock
+        # for microseconds where other threads want it.
+        library = ctypes.PyDLL(self._fmu.dll._name)
         component = ctypes.c_void_p(self._fmu.component)
         self._step, self._get = library.fmi2DoStep, library.fmi2GetReal
         double = ctypes.c_double

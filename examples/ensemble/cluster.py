@@ -11,7 +11,7 @@ from math import ceil
 from pathlib import Path
 
 import numpy as np
-from dask.distributed import Client, Future, LocalCluster, as_completed
+from dask.distributed import Client, Future, as_completed
 
 import ahv
 import batch
@@ -39,10 +39,11 @@ MODULES = [
 def connect(scheduler: str | None, workers: int | None) -> Client:
     """An existing cluster, or one of processes on this machine."""
     if scheduler is None:
-        cluster = LocalCluster(
+        # A worker that takes long to end is killed, which matters to nobody.
+        logging.getLogger("distributed.nanny").setLevel(logging.ERROR)
+        return Client(
             n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None
         )
-        return Client(cluster)
     # Dask would print pages after the loss of a scheduler; fly() reports it in a line.
     logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
     try:

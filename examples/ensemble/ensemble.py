@@ -24,7 +24,7 @@ try:
     import pictures
     from batch import HISTORIES, SAMPLE_S, Loaded, Task
     from cluster import connect, fly
-    from law import BadLaw, Law
+    from law import BadLaw, Law, autopilot_beside
     from parts import AnotherEnsemble, Parts, claim
     from sampling import sample
     from summary import COLUMNS, SAID, summary
@@ -61,7 +61,7 @@ def arguments() -> argparse.ArgumentParser:
 
 def prepare(options: argparse.Namespace) -> tuple[Loaded, Task, np.ndarray, Parts]:
     """FMUs, task, vehicles and parts of the ensemble; ends with a message if it is none."""
-    autopilot = options.autopilot or options.fmu.with_name("ahv_autopilot.fmu")
+    autopilot = options.autopilot or autopilot_beside(options.fmu)
     for file in (options.fmu, autopilot):
         if not file.is_file():
             sys.exit(f"error: {file} does not exist: run `cargo ahv package`")

@@ -23,7 +23,7 @@ try:
     import masters
     import system
     from batch import OUTPUTS, STEP_S, margins_of, opened_loop, opened_vehicle, setting, unzipped
-    from law import PERIOD_S
+    from law import PERIOD_S, autopilot_beside
     from vehicles import parameters
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -69,7 +69,7 @@ def main() -> None:
     fmus, task, vehicles, _ = ensemble.prepare(options)
     container, stop_s = options.output / "loop.fmu", options.stop
     (loop, folder), linearizer = opened_loop(fmus.loop), opened_vehicle(fmus.vehicle)[0]
-    autopilot = options.autopilot or options.fmu.with_name("ahv_autopilot.fmu")
+    autopilot = options.autopilot or autopilot_beside(options.fmu)
     manoeuvre = ensemble.LOOP / "manoeuvre.csv"
     ssp = options.output / "closed_loop_ssp1.ssp"
     system.build(ssp, system.native(options.fmu, autopilot, manoeuvre, {}), stop_s, "1.0")

@@ -24,7 +24,7 @@ try:
 
     from batch import margins_part
     from cluster import connect, upload
-    from law import BadLaw, Law
+    from law import BadLaw, Law, autopilot_beside
     from vehicles import VARIED, scaled
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -69,7 +69,7 @@ def main() -> None:
     parser.add_argument("--workers", type=int, help="local processes; default: one per core")
     parser.add_argument("--output", type=Path, default=Path("target/ensemble"))
     options = parser.parse_args()
-    autopilot = options.autopilot or options.fmu.with_name("ahv_autopilot.fmu")
+    autopilot = options.autopilot or autopilot_beside(options.fmu)
     for file in (options.fmu, autopilot):
         if not file.is_file():
             sys.exit(f"error: {file} does not exist: run `cargo ahv package`")

@@ -21,7 +21,7 @@ import steps
 import system
 from fly import agreement
 from harness import Package, packaged
-from law import HIGH
+from law import HIGH, autopilot_beside
 from loop import Loop
 from masters import MasterFailed, fly_fmpy, fly_libcosim, names
 from system import BadSystem
@@ -55,7 +55,7 @@ def law(package: Package) -> design.Law:
 @pytest.fixture(scope="module")
 def autopilot(package: Package) -> Path:
     """The FMU of the native autopilot."""
-    return package.path.with_name(package.path.name.replace("ahv", "ahv_autopilot", 1))
+    return autopilot_beside(package.path)
 
 
 @pytest.fixture(scope="module")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import re
 import shutil
@@ -30,7 +31,7 @@ import replay
 import summary
 from batch import Loaded, Task, fly_all
 from harness import Package
-from law import Law
+from law import LAW, Law, autopilot_beside
 from parts import AnotherEnsemble, Parts, claim
 from sampling import sample
 from vehicles import VARIED
@@ -46,7 +47,7 @@ WEAK = {"aero": 1.0, "fuel_fraction": 1.0, "elevator_factor": 0.5}
 
 def command(package: Package, output: Path, *options: str) -> list[str]:
     """The example's command line."""
-    autopilot = package.path.with_name("ahv_autopilot.fmu")
+    autopilot = autopilot_beside(package.path)
     files = ["--fmu", str(package.path), "--autopilot", str(autopilot), "--output", str(output)]
     return [sys.executable, str(SCRIPT), *files, *OPTIONS, *options]
 
@@ -73,7 +74,7 @@ def rows(output: Path) -> list[dict[str, object]]:
 @pytest.fixture(scope="module")
 def fmus(package: Package, tmp_path_factory: pytest.TempPathFactory) -> Loaded:
     """The container of the loop, and the vehicle."""
-    autopilot = package.path.with_name("ahv_autopilot.fmu")
+    autopilot = autopilot_beside(package.path)
     loop = tmp_path_factory.mktemp("loop") / "loop.fmu"
     container.build(loop, package.path, autopilot)
     return Loaded(loop.read_bytes(), package.path.read_bytes())
@@ -82,7 +83,7 @@ def fmus(package: Package, tmp_path_factory: pytest.TempPathFactory) -> Loaded:
 @pytest.fixture(scope="module")
 def task(package: Package) -> Task:
     """What the example flies."""
-    law = Law.within(package.path.with_name("ahv_autopilot.fmu"))
+    law = Law.within(autopilot_beside(package.path))
     commands = container.commands(ensemble.LOOP / "manoeuvre.csv")
     return Task(law, commands, STOP_S, b"", sample(FLIGHTS, 1)[:0])
 
@@ -407,7 +408,8 @@ def test_sensitivity_is_found_where_it_is(package: Package, tmp_path: Path) -> N
     [
         (["--flights", "0"], "at least one flight"),
         (["--autopilot", "none.fmu"], "none.fmu does not exist"),
-        (["--autopilot", "law.json"], "law.json"),
+        (["--autopilot", "law.json"], "law.json: File is not a zip file"),
+        (["--autopilot", "own.fmu"], "own.fmu: K has the shape (2, 13); (2, 14) is needed"),
         (["--scheduler", "nowhere"], "no scheduler answers at nowhere"),
     ],
 )
@@ -415,8 +417,12 @@ def test_what_cannot_be_flown_is_refused_in_one_line(
     package: Package, tmp_path: Path, options: list[str], said: str
 ) -> None:
     (tmp_path / "law.json").write_text("{}", "utf-8")
-    if "law.json" in options:
-        options = [options[0], str(tmp_path / "law.json")]
+    with zipfile.ZipFile(autopilot_beside(package.path)) as fmu:
+        (own, *_) = json.loads(fmu.read(LAW))["designs"]
+    own["K"] = [row[:-1] for row in own["K"]]
+    with zipfile.ZipFile(tmp_path / "own.fmu", "w") as fmu:
+        fmu.writestr(LAW, json.dumps({"designs": [own]}))
+    options = [str(tmp_path / text) if (tmp_path / text).is_file() else text for text in options]
     done = run(package, tmp_path / "out", *options)
     assert done.returncode == 1 and done.stderr.count("\n") == 1, done.stderr
     assert done.stderr.startswith("error: ") and said in done.stderr
