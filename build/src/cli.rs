@@ -27,6 +27,7 @@ pub enum Command {
     Trim(Analyse),
     Poles(Poles),
     Wheel(Wheel),
+    Site(Site),
     Test(Test),
     /// Compare every table, claim and computed figure of the paper with ours; write a report
     Reproduce(Research),
@@ -135,7 +136,7 @@ rows with the same time, the values before and after it. The first row also hold
 the last row after. With the default input mode delta_e and phi are deviations from trim.
 
 Output files: flight.csv (time, all inputs, all outputs; SI units and radians), which is also a
-valid input file; flight.svg and flight.png.
+valid input file; flight.svg and flight.png; flight.html, the flight as a page.
 
 Examples:
   cargo ahv fly
@@ -242,6 +243,24 @@ pub struct Wheel {
     /// FMU of the vehicle for FMI 2.0, with the others beside it [default: target/ahv.fmu]
     #[arg(long, value_name = "FILE.fmu")]
     pub fmu: Option<PathBuf>,
+}
+
+/// Build the page in which the vehicle flies in a browser: target/site/index.html
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The page is one file and works from a disk. It needs Node 20 or newer; the packages are installed into
+target/node.
+
+Examples:
+  cargo ahv site
+  cargo ahv site --fmu target/ahv.fmu --output public")]
+pub struct Site {
+    /// FMU of FMI 2.0; that of FMI 3.0 beside it has the component [default: target/ahv.fmu]
+    #[arg(long, value_name = "FILE.fmu")]
+    pub fmu: Option<PathBuf>,
+    /// Folder for the page [default: target/site]
+    #[arg(long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Check format, lints, Rust tests, description, package, and the FMU in FMPy

@@ -11,7 +11,7 @@ use crate::record::Record;
 use crate::settings::{self, Setting};
 use crate::table::{number, row, table};
 use crate::workspace::{Files, can_write, root, shown, write_together};
-use crate::{package, plot, simulation};
+use crate::{flight_page, package, plot, simulation};
 use ahv::short::short;
 use anyhow::{Context, Result, bail};
 use std::path::Path;
@@ -61,7 +61,9 @@ pub fn run(options: &Fly) -> Result<()> {
     instance.set_up(0.0, stop, tolerance)?;
     let recorded = model.with(Causality::Input).chain(model.with(Causality::Output));
     let flown = simulation::run(&mut instance, &manoeuvre, recorded, &points)?;
-    let calculated = values_of(&mut instance, model, Causality::CalculatedParameter)?;
+    let calculated = values_of(&mut instance, model.with(Causality::CalculatedParameter))?;
+    let fuel = model.with(Causality::Parameter).filter(|variable| variable.name == "fuel_fraction");
+    let fuel_fraction = values_of(&mut instance, fuel)?.first().map(|(_, value)| *value);
     if flown.discard_reason.is_none() {
         instance.terminate()?;
     }
@@ -70,14 +72,26 @@ pub fn run(options: &Fly) -> Result<()> {
     let title = title(model, &settings, &input);
     let mut files = Files::from([(csv, flown.record.csv()?.into_bytes())]);
     files.extend(plot::figures(&flown.record, &title, &directory)?);
+    let [duration, steps] = [stop, step].map(short);
+    let experiment = format!("{duration} s in steps of {steps} s, tolerance {tolerance:e}");
+    let page = flight_page::html(&flight_page::Flight {
+        fmu: &fmu,
+        record: &flown.record,
+        settings: &settings,
+        calculated: &calculated,
+        fuel_fraction,
+        title: &title,
+        summary: &experiment,
+        ended: flown.discard_reason.as_deref().unwrap_or_default(),
+    })?;
+    files.extend(page.map(|page| (directory.join("flight.html"), page.into_bytes())));
     write_together(&files)?;
     outln!("FMU          {}", shown(&file))?;
     outln!("inputs       {}", shown(&input))?;
-    let [duration, steps] = [stop, step].map(short);
-    outln!("experiment   {duration} s in steps of {steps} s, tolerance {tolerance:e}")?;
+    outln!("experiment   {experiment}")?;
     outln!("set          {}", set_summary(&settings))?;
     outln!("\nCalculated at initialisation")?;
-    out!("{}", table(&calculated))?;
+    out!("{}", values_table(model, &calculated))?;
     outln!("\nLargest deviations from the initial values")?;
     out!("{}", deviations(model, &flown.record))?;
     print_messages(&instance)?;
@@ -124,22 +138,25 @@ fn set_summary(settings: &[Setting]) -> String {
     }
 }
 
-/// Rows of name, value and unit, in display units.
-fn values_of(
+/// Values of real variables.
+fn values_of<'a>(
     instance: &mut Instance,
-    model: &ModelDescription,
-    causality: Causality,
-) -> Result<Vec<Vec<String>>> {
-    let variables: Vec<&Variable> = model.with(causality).collect();
+    variables: impl Iterator<Item = &'a Variable>,
+) -> Result<Vec<(&'a Variable, f64)>> {
+    let variables: Vec<_> = variables.collect();
     let references: Vec<_> = variables.iter().map(|variable| variable.value_reference).collect();
-    let values = instance.get(&references)?;
+    Ok(variables.into_iter().zip(instance.get(&references)?).collect())
+}
+
+/// Rows of name, value and unit, in display units.
+fn values_table(model: &ModelDescription, values: &[(&Variable, f64)]) -> String {
     let mut rows = vec![row(["variable", "value", "unit"])];
-    for (variable, value) in variables.into_iter().zip(values) {
+    for (variable, value) in values {
         let display = model.display(variable);
         let shown = value * display.factor + display.offset;
         rows.push(vec![variable.name.clone(), number(shown), display.name]);
     }
-    Ok(rows)
+    table(&rows)
 }
 
 fn deviations(model: &ModelDescription, record: &Record) -> String {

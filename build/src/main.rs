@@ -4,7 +4,7 @@
 
 use ahv_tool::cli::{Cli, Command};
 use ahv_tool::{
-    console, describe, fly, modes, package, poles, research, test, trim, wheel, workspace,
+    console, describe, fly, modes, package, poles, research, site, test, trim, wheel, workspace,
 };
 use anyhow::Result;
 use clap::Parser;
@@ -24,6 +24,7 @@ fn run(command: &Command) -> Result<ExitCode> {
         Command::Trim(options) => trim::run(options),
         Command::Poles(options) => poles::run(options),
         Command::Wheel(options) => wheel::run(options),
+        Command::Site(options) => site::run(options),
         Command::Test(options) => test::run(options),
         Command::Reproduce(options) => return research::run("reproduce", options),
         Command::Identify(options) => return research::run("identify", options),

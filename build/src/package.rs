@@ -184,6 +184,21 @@ pub fn of(standard: Standard, output: &Path) -> PathBuf {
     }
 }
 
+/// The WebAssembly component, the description, the documentation and the pictures of a model's FMU of FMI 3.0; that of
+/// FMI 2.0 is at `output`.
+pub fn for_page(model: &PackagedModel, output: &Path) -> Result<Files> {
+    let fmu = of(Standard::Fmi3, output);
+    let description = "modelDescription.xml".to_string();
+    let mut files = Files::from([
+        (wasm::name(model.identifier), component(model, output)?),
+        (description.clone(), archive::entry(&fmu, &description)?),
+    ]);
+    for folder in ["documentation", "terminalsAndIcons"] {
+        files.extend(archive::entries(&fmu, folder)?);
+    }
+    Ok(files)
+}
+
 /// The WebAssembly component of a model's package, whose FMU of FMI 2.0 is at `output`.
 pub fn component(model: &PackagedModel, output: &Path) -> Result<Vec<u8>> {
     archive::entry(&of(Standard::Fmi3, output), &wasm::name(model.identifier))

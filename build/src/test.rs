@@ -6,7 +6,7 @@ use crate::models::{MODELS, VEHICLE};
 use crate::package::Targets;
 use crate::python::{environment, python};
 use crate::workspace::{cargo, check, root, target, works, write};
-use crate::{abi_stress, console, describe, masters, package, research, wheel};
+use crate::{abi_stress, console, describe, masters, package, research, site, wheel};
 use anyhow::{Result, bail};
 use std::ffi::OsString;
 use std::process::Command;
@@ -26,7 +26,7 @@ use Level::{Always, Thorough};
 /// Name, level and action of a step.
 type Step = (&'static str, Level, fn(&Test) -> Result<()>);
 
-const STEPS: [Step; 20] = [
+const STEPS: [Step; 21] = [
     ("prerequisites", Always, prerequisites),
     ("format", Always, |_| check(cargo().args(["fmt", "--all", "--check"]))),
     ("lints", Always, |_| {
@@ -77,6 +77,7 @@ const STEPS: [Step; 20] = [
     ("Windows", Thorough, |options| emulated(options, &WINE)),
     ("ARM", Thorough, |options| emulated(options, &QEMU)),
     ("WebAssembly", Thorough, webassembly),
+    ("page", Thorough, site::test),
 ];
 
 pub fn run(options: &Test) -> Result<()> {
@@ -111,7 +112,7 @@ pub fn run(options: &Test) -> Result<()> {
     }
     if !options.thorough {
         errln!(
-            "\nNot tested: examples, Python package, other masters, sanitizer, valgrind, Windows, ARM, WebAssembly; see --thorough"
+            "\nNot tested: examples, Python package, other masters, sanitizer, valgrind, Windows, ARM, WebAssembly, page; see --thorough"
         );
     }
     Ok(())
