@@ -6,22 +6,17 @@ use ahv::flight::{Flight, Setup};
 use ahv::vehicle::MAX_GUST_M_PER_S;
 use anyhow::Result;
 
+/// Formulas in MathML, and a drawing of the signs.
+const FORMULAS: &str = include_str!("../../../pages/equations.html");
+const SIGNS: &str = include_str!("../../../pages/axes.svg");
+
 const EQUATIONS: &str = "\
-<p>The vehicle moves over a spherical, non-rotating earth with inverse-square gravity. Rigid-body states are
-airspeed, altitude, flight-path angle, incidence and pitch rate; all forces are per metre of
-width.</p>
 <ul>
-<li>Airspeed: thrust along the flight path minus drag, divided by mass, minus gravity along the path.</li>
-<li>Flight-path angle: lift and the normal component of thrust, divided by mass and airspeed, minus gravity
-normal to the path, plus the centrifugal term of the curved earth.</li>
-<li>Incidence: pitch rate minus the rate of the flight-path angle. Attitude is incidence plus flight-path angle.</li>
-<li>Pitch: moment of air and thrust about the mass centre, divided by the pitch inertia.</li>
-<li>Modes: each is a damped oscillator driven by its generalised aerodynamic force. The modes are
-those of the free-free beam with the sloshing masses on their springs, so they contain the force of the
+<li>The earth is a sphere that does not rotate; gravity falls with the square of the distance.</li>
+<li>The modes are those of the free-free beam with the sloshing masses on their springs, so they contain the force of the
 propellant; the dampers of the sloshing masses couple them. Pitch, bending and slosh
 share one mass matrix, with the mass centre and pitch inertia of the coefficient set.</li>
-<li>Lift, drag, moment and thrust: dynamic pressure times a curve fit in incidence, elevator, fuel ratio, bending
-and its rates. The incidence is that of the body, which the sloshing liquid turns. Pitch-rate terms from
+<li>The incidence of the curve fits is that of the body, which the sloshing liquid turns. Pitch-rate terms from
 strip theory are multiplied by <code>pitch_rate_factor</code>.</li>
 <li>Sensors are fixed to a point of the bent body: its flight path, attitude and accelerations are those of
 the mass centre plus the contributions of pitch rate, bending and slosh.</li>
@@ -89,7 +84,7 @@ pub fn page(setup: &Setup) -> Result<Page> {
         summary: format!("{SUMMARY}\n{data}"),
         sections: format!(
             "<h2>Use</h2>\n{USE}\n\
-             <h2>Equations</h2>\n{EQUATIONS}\n\
+             <h2>Signs</h2>\n{SIGNS}\n<h2>Equations</h2>\n{FORMULAS}{EQUATIONS}\n\
              <h2>Validity and limits</h2>\n{limits}"
         ),
         closing: format!("{CITE}\n{REPORT}\n<h2>Changes</h2>\n{changes}\n"),
