@@ -69,7 +69,7 @@ pub fn run(options: &Compare) -> Result<()> {
         outln!("{}\n{}", case.title(), table(&rows))?;
     }
     if !works("valgrind", &["--version"]) {
-        return outln!("valgrind is not installed: no instructions").map_err(Into::into);
+        return outln!("valgrind is not installed: no instructions");
     }
     std::fs::create_dir_all(target().join("bench"))?;
     let (tolerance, number) = PROBED;

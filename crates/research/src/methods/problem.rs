@@ -5,7 +5,7 @@ use super::extrapolation::extrapolate;
 use ahv::dynamics::trim::Trim;
 use ahv::solve::{Integrator, Method, Outcome, Scalar, System};
 use ahv::vehicle::{ALPHA, Control, DELTA_E, GUSTS, Gust, NOMINAL, PHI, Q, STATES, State, Vehicle};
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail};
 use std::cell::Cell;
 
 /// Elevator relative to trim in the quarters of the flight, rad.
@@ -153,7 +153,9 @@ impl<'a> Problem<'a> {
             }
             let state = x.map(DoubleDouble::rounded);
             let holds = self.vehicle.holds(&state, &control.map(DoubleDouble::rounded), gust);
-            ensure!(holds, "the flight leaves the envelope after {} s", step_s * (step + 1) as f64);
+            if !holds {
+                bail!("the flight leaves the envelope after {} s", step_s * (step + 1) as f64);
+            }
         }
         Ok(x.map(DoubleDouble::rounded))
     }
