@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import re
 import shutil
 import signal
 import socket
@@ -14,25 +13,20 @@ import sys
 import time
 import zipfile
 from collections.abc import Iterator
-from io import BytesIO
 from pathlib import Path
 
 import numpy as np
-import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from dask.distributed import Client, LocalCluster
 
 import batch
 import cluster as dask_cluster
-import container
 import ensemble
-import replay
-import summary
 from batch import Loaded, Task, fly_all
 from harness import Package
-from law import LAW, Law, autopilot_beside
-from parts import AnotherEnsemble, Parts, claim
+from law import LAW, autopilot_beside
+from parts import Parts
 from sampling import sample
 from vehicles import VARIED
 
@@ -41,8 +35,6 @@ FLIGHTS, STOP_S = 400, 4.0
 OPTIONS = ("--flights", str(FLIGHTS), "--stop", str(STOP_S))
 # Time within which a worker restarts and flies the rest.
 PATIENCE_S = 240.0
-# Needs more elevator than there is.
-WEAK = {"aero": 1.0, "fuel_fraction": 1.0, "elevator_factor": 0.5}
 
 
 def command(package: Package, output: Path, *options: str) -> list[str]:
@@ -69,23 +61,6 @@ def found(output: Path) -> Parts:
 def rows(output: Path) -> list[dict[str, object]]:
     """Flights in the order of the sample."""
     return found(output).table(batch.SCHEMA.names).to_pylist()
-
-
-@pytest.fixture(scope="module")
-def fmus(package: Package, tmp_path_factory: pytest.TempPathFactory) -> Loaded:
-    """The container of the loop, and the vehicle."""
-    autopilot = autopilot_beside(package.path)
-    loop = tmp_path_factory.mktemp("loop") / "loop.fmu"
-    container.build(loop, package.path, autopilot)
-    return Loaded(loop.read_bytes(), package.path.read_bytes())
-
-
-@pytest.fixture(scope="module")
-def task(package: Package) -> Task:
-    """What the example flies."""
-    law = Law.within(autopilot_beside(package.path))
-    commands = container.commands(ensemble.LOOP / "manoeuvre.csv")
-    return Task(law, commands, STOP_S, b"", sample(FLIGHTS, 1)[:0])
 
 
 @pytest.fixture(scope="module")
@@ -175,77 +150,6 @@ def test_two_ensembles_are_not_mixed(package: Package, flown: Path, tmp_path: Pa
     assert other.returncode == 1 and "holds another ensemble; differing: fmu" in other.stderr
 
 
-def test_a_damaged_ensemble_is_named(tmp_path: Path) -> None:
-    identity = claim(tmp_path, {"seed": 1})
-    file = tmp_path / "ensemble.json"
-    whole = file.read_bytes()
-    file.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(AnotherEnsemble, match="damaged"):
-        claim(tmp_path, {"seed": 1})
-    file.write_bytes(whole)
-    assert claim(tmp_path, {"seed": 1}) == identity
-    with pytest.raises(AnotherEnsemble, match="differing: seed"):
-        claim(tmp_path, {"seed": 2})
-
-
-def content(vehicles: np.ndarray, identity: bytes) -> bytes:
-    """A part without flights."""
-    flights = [
-        dict.fromkeys(batch.SCHEMA.names) | dict(zip(VARIED, vehicle.tolist(), strict=True))
-        for vehicle in vehicles
-    ]
-    table = pa.Table.from_pylist(flights, batch.SCHEMA.with_metadata({batch.KEY: identity}))
-    file = BytesIO()
-    pq.write_table(table, file)
-    return file.getvalue()
-
-
-def test_a_part_of_another_ensemble_is_not_read(tmp_path: Path) -> None:
-    """The same flights with another autopilot or FMU, or other vehicles with the same numbers."""
-    vehicles = sample(4, 1)
-    mine = Parts(tmp_path / "flights", b"mine", vehicles)
-    mine.write(0, content(vehicles, b"mine"), 4)
-    again = Parts(tmp_path / "flights", b"mine", vehicles)
-    assert again.find() == [] and again.missing() == [] and again.count() == 4
-    assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == ["part-000000.parquet"]
-    for identity, others in ((b"theirs", vehicles), (b"mine", sample(4, 2))):
-        theirs = Parts(tmp_path / "flights", identity, others)
-        (said,) = theirs.find()
-        assert theirs.missing() == [range(4)]
-        assert "is of another ensemble, its flights are flown again" in said
-
-
-def test_parts_of_any_sizes_fill_an_ensemble(tmp_path: Path) -> None:
-    """Also one that reaches into the next, which is then not read."""
-    vehicles = sample(20, 1)
-    own = Parts(tmp_path / "flights", b"mine", vehicles)
-    for flights in (range(3, 5), range(5, 12), range(10, 14), range(16, 20)):
-        part = content(vehicles[flights.start : flights.stop], b"mine")
-        own.path(flights.start).write_bytes(part)
-    (said,) = own.find()
-    assert "part-000010.parquet" in said
-    assert own.missing() == [range(3), range(12, 16)] and own.count() == 13
-    table = own.table(["aero"])
-    assert table["aero"].to_pylist() == [*vehicles[3:12, 3], *vehicles[16:, 3]]
-
-
-def test_batches_are_sized_by_time_and_end_together() -> None:
-    """A core flies 100 flights per second."""
-    for cores, longest_s in ((2, dask_cluster.AIM_S), (1000, 1000 / dask_cluster.FILES_PER_S)):
-        batches = dask_cluster.Batches([range(10), range(50, 1_000_000)])
-        flown = [batches.next(cores), batches.next(cores)]
-        assert flown == [range(8), range(8, 10)]
-        batches.flown(10, 0.1)
-        while flights := batches.next(cores):
-            flown.append(flights)
-        covered = [number for flights in flown for number in flights]
-        assert covered == [*range(10), *range(50, 1_000_000)]
-        sizes = [len(flights) for flights in flown]
-        assert max(sizes) <= 100 * longest_s
-        assert len(flown) < 1_000_000 / max(sizes) + 10 * cores
-        assert sizes[-1] <= 100 * dask_cluster.LEAST_S
-
-
 def test_an_unreachable_scheduler_is_named(
     package: Package, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -299,38 +203,6 @@ def test_a_scheduler_that_dies_loses_no_result(
     assert f"{FLIGHTS - kept} flights in" in again.stdout and len(rows(tmp_path)) == FLIGHTS
 
 
-def test_a_vehicle_that_cannot_be_trimmed_is_a_row_with_the_reason(
-    fmus: Loaded, task: Task
-) -> None:
-    vehicle = sample(1, 1)[0]
-    weak = np.array(list((dict(zip(VARIED, vehicle, strict=True)) | WEAK).values()))
-    row, good = fly_all(fmus, task._replace(vehicles=np.array([weak, vehicle]), stop_s=1.0))
-    assert not row["trimmed"] and "delta_e" in row["ended"] and row["flown_s"] == 0.0
-    assert good["trimmed"] and good["ended"] == "" and good["flown_s"] == pytest.approx(1.0)
-    # The columns of a table do not depend on the first vehicle, and no vehicle is lost.
-    table = pa.Table.from_pylist([row, good], batch.SCHEMA)
-    assert set(row) == set(good) == set(table.column_names)
-    assert pa.Table.from_pylist([row], batch.SCHEMA).schema == table.schema
-    said = summary.summary(table)
-    assert "2 vehicles" in said and re.search(r"50\.00 % \(9\.45 to 90\.55\)  no trim: 1", said)
-    (reason,) = summary.refusals(table)
-    assert "delta_e" in reason
-
-
-def test_a_flight_that_ends_early_is_a_row_with_reason_and_time(fmus: Loaded, task: Task) -> None:
-    """Slosh that grows until the liquid leaves its depth."""
-    vehicle = dict.fromkeys(VARIED, 1.0) | {
-        **{"slosh_damping": 0.005, "slosh_frequency": 5.0},
-        **{"mass_centre_shift": 0.0, "pitch_rate_factor": 0.0},
-    }
-    vehicles = np.array([list(vehicle.values())])
-    (row,) = fly_all(fmus, task._replace(vehicles=vehicles, stop_s=60.0))
-    assert row["ended"].startswith("fmi2DoStep: slosh") and row["growth_per_s"] > 0.0
-    until_s = float(re.search(r"at t = ([\d.]+) s", row["ended"])[1])
-    assert until_s - 2 * batch.STEP_S < row["flown_s"] <= until_s < 60.0
-    assert len(row["V_m_per_s"]) == 1 + int(row["flown_s"] / batch.SAMPLE_S)
-
-
 def script(name: str, package: Package, output: Path, *options: str) -> str:
     """Run another script on an ensemble to its end; what it prints."""
     line = command(package, output, *options)
@@ -350,57 +222,6 @@ def test_the_worst_flights_are_replayed_from_their_rows(package: Package, flown:
     assert f"error: there is no flight {FLIGHTS}" in script(
         "replay", package, flown, "--number", str(FLIGHTS)
     )
-
-
-def test_a_row_that_is_not_its_flight_is_named(fmus: Loaded, task: Task) -> None:
-    (row,) = fly_all(fmus, task._replace(vehicles=sample(1, 1)))
-    again = replay.fly(fmus, task, row)
-    assert replay.same(again, row)
-    row["gamma_rad"][-1] = np.nextafter(row["gamma_rad"][-1], 1.0)
-    assert not replay.same(again, row)
-
-
-def test_the_worst_are_picked() -> None:
-    """Of stable, unstable, ended and untrimmed vehicles."""
-    table = pa.table(
-        {
-            "trimmed": [True, True, True, True, True, False],
-            "ended": ["", "alpha", "slosh1", "", "", "no trim"],
-            "flown_s": [20.0, 7.0, 5.0, 20.0, 20.0, 0.0],
-            "growth_per_s": [-0.1, 0.9, 0.2, 0.3, -0.2, None],
-            "phase_deg": [12.0, np.nan, np.nan, np.nan, 9.0, None],
-        }
-    )
-    assert replay.worst(table) == {
-        "ended first": 2,
-        "fastest growth": 3,
-        "least phase margin": 4,
-    }
-
-
-def test_probabilities_have_their_intervals() -> None:
-    """By Wilson: 5 of 50, from the formula; and 0 of 20, which excludes more than 16 %."""
-    n, p, z = 50, 0.1, 1.959964
-    middle = (p + z**2 / (2 * n)) / (1 + z**2 / n)
-    half = z / (1 + z**2 / n) * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
-    assert summary.interval(5, n) == pytest.approx((middle - half, middle + half), abs=1e-6)
-    assert summary.interval(0, 20) == pytest.approx((0.0, 0.161), abs=5e-4)
-
-
-def test_sensitivity_is_found_where_it_is(package: Package, tmp_path: Path) -> None:
-    """The coefficient set and the liquid decide; 64 samples show that."""
-    line = [sys.executable, str(SCRIPT.with_name("sensitivity.py")), "--fmu", str(package.path)]
-    line += ["--output", str(tmp_path), "--samples"]
-    done = subprocess.run([*line, "64"], capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    tables = done.stdout.split("|---|---|---|")[1:]
-    for table in tables:
-        names = re.findall(r"^\| `(\w+)`", table, re.MULTILINE)
-        assert set(names) == set(VARIED)
-        assert set(names[:3]) <= {"aero", "slosh_damping", "slosh_frequency", "fuel_fraction"}
-    assert (tmp_path / "sensitivity.png").stat().st_size > 10_000
-    done = subprocess.run([*line, "60"], capture_output=True, text=True, check=False)
-    assert done.returncode == 1 and done.stderr == "error: --samples 60 is no power of two\n"
 
 
 @pytest.mark.parametrize(
