@@ -148,7 +148,7 @@ fn the_documentation_names_the_methods_and_orders_of_the_code() {
 #[test]
 fn the_ensemble_varies_what_its_page_says() {
     let (page, script) =
-        (read("examples/ensemble/README.md"), read("examples/ensemble/ensemble.py"));
+        (read("examples/ensemble/README.md"), read("examples/ensemble/vehicles.py"));
     let (_, varied) = script.split_once("VARIED = {").unwrap();
     let (varied, _) = varied.split_once('}').unwrap();
     let ranges: Vec<_> = varied.lines().filter_map(|line| line.trim().split_once(": ")).collect();
