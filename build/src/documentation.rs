@@ -12,6 +12,7 @@ use variables::Described;
 const STYLE: &str = "\
 body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:60em;margin:2em auto;padding:0 1em;\
 overflow-wrap:break-word}img{max-width:100%}a{padding:.3em 0;color:#0054a6}\
+.figure{display:block;overflow-x:auto}.figure svg{min-width:560px}\
 .table{overflow-x:auto}table{border-collapse:collapse;font-size:14px}\
 th,td{border:1px solid #bbb;padding:.2em .5em;text-align:left;vertical-align:top}th{background:#eee}\
 td.n{text-align:right}td:last-child{min-width:18em}\

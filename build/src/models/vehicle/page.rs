@@ -84,7 +84,7 @@ pub fn page(setup: &Setup) -> Result<Page> {
         summary: format!("{SUMMARY}\n{data}"),
         sections: format!(
             "<h2>Use</h2>\n{USE}\n\
-             <h2>Signs</h2>\n{SIGNS}\n<h2>Equations</h2>\n{FORMULAS}{EQUATIONS}\n\
+             <h2>Signs</h2>\n<p><span class=\"figure\">{SIGNS}</span></p>\n<h2>Equations</h2>\n{FORMULAS}{EQUATIONS}\n\
              <h2>Validity and limits</h2>\n{limits}"
         ),
         closing: format!("{CITE}\n{REPORT}\n<h2>Changes</h2>\n{changes}\n"),
