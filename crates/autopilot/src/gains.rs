@@ -30,8 +30,13 @@ impl Gains {
 /// Moves numbers on to others: 0 stays, 1 gets there.
 pub fn mix(own: &mut [f64], others: &[f64], part: f64) {
     for (own, other) in own.iter_mut().zip(others) {
-        *own = (1.0 - part) * *own + part * other;
+        *own = lerp(*own, *other, part);
     }
+}
+
+/// A number between two: 0 is the first, 1 the second.
+pub fn lerp(first: f64, second: f64, part: f64) -> f64 {
+    (1.0 - part) * first + part * second
 }
 
 /// The neighbours of a value in an ordered list, and how far it is from the first (0) to the second (1); beyond

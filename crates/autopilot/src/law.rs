@@ -1,7 +1,7 @@
 //! The law: designs for sampling periods and levels of fuel.
 
 use crate::error::Error;
-use crate::gains::{Gains, mix, place};
+use crate::gains::{Gains, lerp, mix, place};
 use crate::written::File;
 use fmi_model::identity::fnv;
 use std::path::Path;
@@ -50,17 +50,21 @@ impl Design {
     /// The design for a fuel fraction.
     pub fn at(designs: &[Self], fuel_fraction: f64) -> Self {
         let (before, next, part) = place(designs, |design| design.fuel_fraction, fuel_fraction);
-        let mut between = before.clone();
-        mix(&mut between.level, &next.level, part);
-        mix(&mut between.trim, &next.trim, part);
-        mix(
-            std::slice::from_mut(&mut between.fuel_mass_kg_per_m),
-            &[next.fuel_mass_kg_per_m],
-            part,
-        );
-        between.fuel_fraction = fuel_fraction;
-        between.gains.move_to(&next.gains, part);
-        between
+        let fuel_mass_kg_per_m = lerp(before.fuel_mass_kg_per_m, next.fuel_mass_kg_per_m, part);
+        let (mut level, mut trim) = (before.level, before.trim);
+        mix(&mut level, &next.level, part);
+        mix(&mut trim, &next.trim, part);
+        let gains = Self::gains_at(designs, fuel_mass_kg_per_m);
+        Self { fuel_fraction, fuel_mass_kg_per_m, level, trim, gains, ..*before }
+    }
+
+    /// Gains for a fuel mass, kg per metre of width.
+    pub fn gains_at(designs: &[Self], fuel_mass_kg_per_m: f64) -> Gains {
+        let mass = |design: &Self| design.fuel_mass_kg_per_m;
+        let (before, next, part) = place(designs, mass, fuel_mass_kg_per_m);
+        let mut gains = before.gains.clone();
+        gains.move_to(&next.gains, part);
+        gains
     }
 }
 

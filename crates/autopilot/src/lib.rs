@@ -112,8 +112,9 @@ impl Model for Autopilot {
         if self.level_speed_m_per_s != 0.0 {
             level[0] = self.level_speed_m_per_s;
         }
-        let pilot = Pilot::new(designs, design.fuel_mass_kg_per_m, level, limits);
-        Ok(Running::new(pilot, Commands::new(&self.breakpoints)?, design.period_s, time_s))
+        let period_s = design.period_s;
+        let pilot = Pilot::new(designs, design, level, limits);
+        Ok(Running::new(pilot, Commands::new(&self.breakpoints)?, period_s, time_s))
     }
 
     fn started(&self, _default: &Self, running: &Running, say: &mut dyn FnMut(String)) {

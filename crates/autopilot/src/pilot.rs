@@ -1,6 +1,6 @@
 //! The running law: what it remembers, and one sample.
 
-use crate::gains::{FEEDBACK_COLUMNS, Gains, place};
+use crate::gains::{FEEDBACK_COLUMNS, Gains};
 use crate::law::{COMMANDS, Design, MEASURED, MOST_STATES, WANTED};
 
 /// A measurement beyond this is not believed, in m/s, rad, rad/s: what is made of it does not overflow.
@@ -49,17 +49,18 @@ pub struct Pilot {
 }
 
 impl Pilot {
-    /// The law for this fuel about a level flight with these measurements and limits.
+    /// The law that starts with a design about a level flight with these measurements and limits; others to
+    /// follow the fuel.
     pub fn new(
         designs: &[Design],
-        fuel_mass_kg_per_m: f64,
+        start: Design,
         level: [f64; MEASURED],
         [low, high]: [[f64; COMMANDS]; 2],
     ) -> Self {
         Self {
             designs: designs.to_vec(),
-            gains: scheduled(designs, fuel_mass_kg_per_m),
-            fuel_mass_kg_per_m,
+            gains: start.gains,
+            fuel_mass_kg_per_m: start.fuel_mass_kg_per_m,
             level,
             low,
             high,
@@ -78,7 +79,7 @@ impl Pilot {
     pub fn move_to(&mut self, fuel_mass_kg_per_m: f64) {
         if fuel_mass_kg_per_m != self.fuel_mass_kg_per_m {
             self.fuel_mass_kg_per_m = fuel_mass_kg_per_m;
-            self.gains = scheduled(&self.designs, fuel_mass_kg_per_m);
+            self.gains = Design::gains_at(&self.designs, fuel_mass_kg_per_m);
         }
     }
 
@@ -146,13 +147,4 @@ fn add_products<'a, const ROWS: usize>(
             *sum += value * factor;
         }
     }
-}
-
-/// Gains for a fuel.
-fn scheduled(designs: &[Design], fuel_mass_kg_per_m: f64) -> Gains {
-    let mass = |design: &Design| design.fuel_mass_kg_per_m;
-    let (before, next, part) = place(designs, mass, fuel_mass_kg_per_m);
-    let mut gains = before.gains.clone();
-    gains.move_to(&next.gains, part);
-    gains
 }
