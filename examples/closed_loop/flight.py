@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Mapping
 from functools import cache
 from types import TracebackType
 from typing import NamedTuple, Self
@@ -27,52 +28,19 @@ class NoFlight(Exception):
     """The FMU refused its parameters or found no trim; with its message."""
 
 
-class Vehicle:
-    """An instance of the FMU unzipped in `folder`, trimmed with these parameters; or NoFlight.
+class Instance:
+    """An instance of the FMU unzipped in `folder`; not initialised."""
 
-    `said` is its last message, `trim` delta_e, rad, and phi of level flight. Calls that do not
-    return fmi2OK raise FMICallException.
-    """
-
-    def __init__(self, folder: str, outputs: tuple[str, ...] = (), **parameters: float) -> None:
+    def __init__(self, folder: str, name: str, callbacks: fmi2CallbackFunctions) -> None:
         description = described(folder)
         self.variables = {v.name: v for v in description.modelVariables}
-        self.said, self.time = "", 0.0
         self._fmu = FMU2Slave(
             guid=description.guid,
             unzipDirectory=folder,
             modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="vehicle",
+            instanceName=name,
         )
-        callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
         self._fmu.instantiate(callbacks=callbacks)
-        try:
-            for name, value in parameters.items():
-                kinds = {"Real": self._fmu.setReal, "Boolean": self._fmu.setBoolean}
-                call = kinds.get(self.variables[name].type, self._fmu.setInteger)
-                call([self.variables[name].valueReference], [value])
-            self._fmu.setupExperiment()
-            self._fmu.enterInitializationMode()
-            self._fmu.exitInitializationMode()
-        except FMICallException as error:
-            self.close()
-            raise NoFlight(self.said or str(error)) from error
-        # Buffers and pointers are created once, so that a step is three plain C calls.
-        self.outputs = (*MEASURED, *outputs)
-        self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
-        self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
-        self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
-        self._air = self._references(AIR)
-        self.trim = np.array(self._fmu.getReal([self.variables[n].valueReference for n in TRIM]))
-
-    def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
-        if status != fmi2OK:
-            self.said = text.decode()
-
-    def _references(self, names: tuple[str, ...]) -> ctypes.Array:
-        references = [self.variables[name].valueReference for name in names]
-        return (ctypes.c_uint32 * len(names))(*references)
 
     def __enter__(self) -> Self:
         return self
@@ -88,6 +56,50 @@ class Vehicle:
     def close(self) -> None:
         """Free the instance."""
         self._fmu.freeInstance()
+
+    def _initialise(self, parameters: Mapping[str, float]) -> None:
+        kinds = {"Real": self._fmu.setReal, "Boolean": self._fmu.setBoolean}
+        for name, value in parameters.items():
+            variable = self.variables[name]
+            call = kinds.get(variable.type, self._fmu.setInteger)
+            call([variable.valueReference], [value])
+        self._fmu.setupExperiment()
+        self._fmu.enterInitializationMode()
+        self._fmu.exitInitializationMode()
+
+    def _references(self, names: tuple[str, ...]) -> ctypes.Array:
+        references = [self.variables[name].valueReference for name in names]
+        return (ctypes.c_uint32 * len(names))(*references)
+
+
+class Vehicle(Instance):
+    """An instance of the FMU unzipped in `folder`, trimmed with these parameters; or NoFlight.
+
+    `said` is its last message, `trim` delta_e, rad, and phi of level flight. Calls that do not
+    return fmi2OK raise FMICallException.
+    """
+
+    def __init__(self, folder: str, outputs: tuple[str, ...] = (), **parameters: float) -> None:
+        self.said, self.time = "", 0.0
+        callbacks = fmi2CallbackFunctions()
+        callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
+        super().__init__(folder, "vehicle", callbacks)
+        try:
+            self._initialise(parameters)
+        except FMICallException as error:
+            self.close()
+            raise NoFlight(self.said or str(error)) from error
+        # Buffers and pointers are created once, so that a step is three plain C calls.
+        self.outputs = (*MEASURED, *outputs)
+        self._commands, self._values = np.zeros(2), np.zeros(len(self.outputs))
+        self._commands_at, self._values_at = pointer(self._commands), pointer(self._values)
+        self._into, self._out = self._references(COMMANDS), self._references(self.outputs)
+        self._air = self._references(AIR)
+        self.trim = np.array(self._fmu.getReal([self.variables[n].valueReference for n in TRIM]))
+
+    def _hear(self, _: object, __: bytes, status: int, ___: bytes, text: bytes) -> None:
+        if status != fmi2OK:
+            self.said = text.decode()
 
     def command(self, commands: np.ndarray, rates: np.ndarray | None = None) -> None:
         """Set delta_e, rad, and phi; `rates` per second if they vary within the next step."""

@@ -5,15 +5,14 @@ from __future__ import annotations
 import ctypes
 import re
 from collections.abc import Mapping
-from types import TracebackType
-from typing import NamedTuple, Self
+from typing import NamedTuple
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 from fmpy.logging import addLoggerProxy
 
-from flight import NoFlight, described
+from flight import Instance, NoFlight
 
 WARNING = 1
 # What an FMU within the container says, but for the container's own account of the function.
@@ -27,27 +26,18 @@ class Flown(NamedTuple):
     ended: str
 
 
-class Loop:
+class Loop(Instance):
     """An instance of the container unzipped in `folder`, which records these outputs."""
 
     def __init__(self, folder: str, outputs: tuple[str, ...]) -> None:
-        description = described(folder)
-        self.variables = {v.name: v for v in description.modelVariables}
         self._said: list[str] = []
-        self._fmu = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="loop",
-        )
         callbacks = fmi2CallbackFunctions()
         callbacks.logger = fmi2CallbackLoggerTYPE(self._hear)
         # The container passes the text as an argument of printf, which Python cannot read.
         addLoggerProxy(ctypes.byref(callbacks))
-        self._fmu.instantiate(callbacks=callbacks)
+        super().__init__(folder, "loop", callbacks)
         self._is_used = False
-        references = [self.variables[name].valueReference for name in outputs]
-        self._out = (ctypes.c_uint32 * len(outputs))(*references)
+        self._out = self._references(outputs)
         # FMPy's wrappers cost more than the calls, and so does releasing the interpreter's lock
         # for microseconds where other threads want it.
         library = ctypes.PyDLL(self._fmu.dll._name)
@@ -62,35 +52,13 @@ class Loop:
         if status >= WARNING and (said := WITHIN.fullmatch(text.decode("utf-8", "replace"))):
             self._said.append(said[1])
 
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Free the instance."""
-        self._fmu.freeInstance()
-
     def _start(self, parameters: Mapping[str, float]) -> None:
         if self._is_used:
             self._fmu.reset()
         self._is_used = True
         self._said.clear()
-        kinds = {"Real": self._fmu.setReal, "Boolean": self._fmu.setBoolean}
         try:
-            for name, value in parameters.items():
-                variable = self.variables[name]
-                call = kinds.get(variable.type, self._fmu.setInteger)
-                call([variable.valueReference], [value])
-            self._fmu.setupExperiment()
-            self._fmu.enterInitializationMode()
-            self._fmu.exitInitializationMode()
+            self._initialise(parameters)
         except FMICallException as error:
             raise NoFlight(self._said[0] if self._said else str(error)) from error
 
