@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::law::{COMMANDS, MEASURED, WANTED};
 use crate::pilot::{Memory, Pilot};
 use crate::saved;
-use fmi_model::clock::same_instant;
+use fmi_model::clock::Samples;
 use fmi_model::{InputDerivatives, Saving, Simulation};
 
 /// V (m/s), gamma (rad), q (rad/s), fuel (kg/m); change of V (m/s), gamma (rad).
@@ -70,20 +70,8 @@ impl Running {
         self.period_s
     }
 
-    /// Number of the first sample that is not before a time (s), rounding left aside.
-    fn sample_from(&self, time_s: f64) -> f64 {
-        let periods = (time_s - self.start_s) / self.period_s;
-        let nearest = periods.round();
-        if same_instant(self.instant(nearest), time_s, self.period_s) {
-            nearest
-        } else {
-            periods.ceil()
-        }
-    }
-
-    /// Time of a sample, s.
-    fn instant(&self, number: f64) -> f64 {
-        self.start_s + number * self.period_s
+    fn samples(&self) -> Samples {
+        Samples { start: self.start_s, period: self.period_s }
     }
 
     /// One sample at a time, s.
@@ -147,17 +135,19 @@ impl Simulation for Running {
     }
 
     fn advance(&mut self, end_s: f64) -> Result<(), Error> {
-        let (first, end) = (self.sample_from(self.time_s), self.sample_from(end_s));
+        let samples = self.samples();
+        let (from, to) = (samples.number(self.time_s), samples.number(end_s));
+        let (first, end) = (from.ceil(), to.ceil());
         if !(end - first <= MOST_SAMPLES && end <= MOST_PERIODS) {
             return Err(Error::Step { end_s, period_s: self.period_s });
         }
         let mut number = first;
         while number < end {
             self.command = self.memory.command;
-            self.sample(self.instant(number));
+            self.sample(samples.instant(number));
             number += 1.0;
         }
-        if same_instant(self.instant(end), end_s, self.period_s) {
+        if to == end {
             self.command = self.memory.command;
         }
         if self.ahead {

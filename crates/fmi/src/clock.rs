@@ -18,3 +18,26 @@ pub fn same_instant(a: f64, b: f64, step: f64) -> bool {
     let share = (SAME_INSTANT * step).max(ROUNDED.min(LARGEST_SHARE * step));
     (0.5 * a - 0.5 * b).abs() <= 0.5 * rounding.max(share)
 }
+
+/// Instants a period apart.
+#[derive(Debug, Clone, Copy)]
+pub struct Samples {
+    /// Instant of number 0, s.
+    pub start: f64,
+    /// Distance of the instants, s.
+    pub period: f64,
+}
+
+impl Samples {
+    /// Instant of a number, s.
+    pub fn instant(self, number: f64) -> f64 {
+        self.start + number * self.period
+    }
+
+    /// Number of a time (s): whole if the time is an instant, as two instants are the same.
+    pub fn number(self, time: f64) -> f64 {
+        let periods = (time - self.start) / self.period;
+        let nearest = periods.round();
+        if same_instant(self.instant(nearest), time, self.period) { nearest } else { periods }
+    }
+}

@@ -5,7 +5,7 @@
 
 use crate::model::{Error, Failure, MOST_PERIODS, Sensor};
 use crate::noise::normal;
-use fmi_model::clock::same_instant;
+use fmi_model::clock::{Samples, same_instant};
 use fmi_model::instance::LARGEST;
 use fmi_model::{InputDerivatives, Saving, Simulation};
 
@@ -79,25 +79,20 @@ impl Running {
 
     /// Number of the last sample that is due at a time (s), and whether the time is its instant.
     fn due(&self, time: f64) -> (f64, bool) {
-        let period = self.sensor.period;
-        let periods = (time - self.start) / period;
-        let nearest = periods.round();
-        match same_instant(self.instant(nearest), time, period) {
-            true => (nearest, true),
-            false => (periods.floor(), false),
-        }
+        let number = self.samples().number(time);
+        let last = number.floor();
+        (last, number == last)
     }
 
-    /// Time of a sample, s.
-    fn instant(&self, sample: f64) -> f64 {
-        self.start + sample * self.sensor.period
+    fn samples(&self) -> Samples {
+        Samples { start: self.start, period: self.sensor.period }
     }
 
     /// The sample of this number, taken between now and a time, s.
     fn sample(&self, sample: f64, time: f64) -> f64 {
         let Sensor { noise, seed, .. } = self.sensor;
         let noise = if noise > 0.0 { noise * normal(seed, sample as u64) } else { 0.0 };
-        self.reading(self.lagged(self.instant(sample).max(self.time).min(time)), noise)
+        self.reading(self.lagged(self.samples().instant(sample).max(self.time).min(time)), noise)
     }
 
     /// The reading at a time (s) from now on, of a sensor that does not fail.
