@@ -7,6 +7,7 @@ import os
 import sys
 import zipfile
 from collections.abc import Iterator
+from concurrent.futures import CancelledError
 from math import ceil
 from pathlib import Path
 
@@ -135,11 +136,10 @@ def fly(
 
 
 def result(future: Future) -> tuple[bytes, float] | str:
-    """What `fly_part` returned, or why it did not."""
+    """What `fly_part` returned, or why it did not; waits if the result died with its worker."""
     try:
-        if future.status == "finished":
-            return future.result()
-        # Without a scheduler the exception is not available.
-        return str(future.exception() or f"{future.status}: the scheduler is gone")
-    except OSError:
+        # A future that was over may wait again: Dask repeats what a lost worker had done.
+        failure = future.exception()
+        return future.result() if failure is None else str(failure)
+    except (CancelledError, OSError):
         return "the scheduler is gone"

@@ -103,6 +103,23 @@ def test_a_worker_that_dies_loses_no_result(flown: Path) -> None:
         assert (flown / picture).stat().st_size > 10_000
 
 
+def test_a_result_that_dies_with_its_worker_is_awaited() -> None:
+    """Between the end of a batch and the transfer of its result."""
+    with (
+        LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+    ):
+        future = client.submit(os.getpid)
+        first = future.result()
+        os.kill(first, signal.SIGKILL)
+        end = time.monotonic() + PATIENCE_S
+        while future.status != "lost":
+            assert time.monotonic() < end, "the worker is still there"
+            time.sleep(0.01)
+        again = dask_cluster.result(future)
+    assert isinstance(again, int) and again != first
+
+
 def test_a_flight_is_the_same_on_any_worker(fmus: Loaded, task: Task, flown: Path) -> None:
     """And whichever flights were flown before it by the same instance."""
     here = fly_all(fmus, task._replace(vehicles=sample(FLIGHTS, 1)[::50]))
