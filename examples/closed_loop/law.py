@@ -20,6 +20,8 @@ import numpy as np
 LOW, HIGH = np.array([-np.pi / 9, 0.0]), np.array([np.pi / 9, 0.65])
 # The speed error is limited to this, m/s; a larger one would saturate the elevator.
 SPEED_ERROR = 10.0
+# A speed below this share of level flight's is not believed.
+SLOWEST = 0.5
 # Where the FMU ahv_autopilot has its designs.
 LAW = "resources/law.json"
 # Sampling period of the law, and communication step of the masters.
@@ -96,9 +98,14 @@ class Law:
         return max(own, key=lambda law: law.fuel_fraction)
 
 
+def part_beside(vehicle: Path, part: str) -> Path:
+    """Where `cargo ahv package` puts the FMU of a part, as `autopilot`, beside the vehicle's."""
+    return vehicle.with_name(vehicle.name.replace("ahv", f"ahv_{part}", 1))
+
+
 def autopilot_beside(vehicle: Path) -> Path:
-    """Where `cargo ahv package` puts the autopilot's FMU, beside that of the vehicle."""
-    return vehicle.with_name(vehicle.name.replace("ahv", "ahv_autopilot", 1))
+    """The same of the autopilot."""
+    return part_beside(vehicle, "autopilot")
 
 
 def load_schedule(text: str) -> list[Law]:
@@ -142,12 +149,12 @@ class Autopilot:
         """Command for the next communication point.
 
         `measured`: V, gamma, q now; `wanted`: change of V and value of gamma. A measurement that is
-        not finite, or no speed at all, is not believed: the model alone carries the estimate on.
+        not finite, or a speed of no flight, is not believed: the model alone carries on.
         """
         law, known = self.law, (self.estimate, self.command)
         speed = law.speed_error_m_per_s
         deviation = measured - law.level
-        if measured[0] > 0.0 and isfinite(measured.sum()):
+        if measured[0] > SLOWEST * law.level[0] and isfinite(measured.sum()):
             predicted = self._with @ np.concatenate((*known, deviation))
             error = deviation[:2] - wanted
             error[0] = min(max(error[0], -speed), speed)

@@ -5,6 +5,8 @@ use crate::law::{COMMANDS, Design, MEASURED, MOST_STATES, WANTED};
 
 /// A measurement beyond this is not believed, in m/s, rad, rad/s: what is made of it does not overflow.
 const LARGEST: f64 = 1e9;
+/// A speed below this share of level flight's is not believed: that of a sensor without a signal, which noise moves.
+const SLOWEST: f64 = 0.5;
 
 /// What the law remembers from sample to sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -88,9 +90,9 @@ impl Pilot {
         self.fuel_mass_kg_per_m
     }
 
-    /// Whether a measurement is believed: there is a speed, and nothing is NaN or beyond any flight.
-    pub fn believes(measured: &[f64; MEASURED]) -> bool {
-        measured[0] > 0.0 && measured.iter().all(|value| value.abs() <= LARGEST)
+    /// Whether a measurement is believed: the speed is one of flight, and nothing is NaN or beyond any flight.
+    pub fn believes(&self, measured: &[f64; MEASURED]) -> bool {
+        measured[0] > SLOWEST * self.level[0] && measured.iter().all(|value| value.abs() <= LARGEST)
     }
 
     /// One sample: the command for the next one from what is measured now. A filter in predictor form knows
@@ -103,7 +105,7 @@ impl Pilot {
         let known = memory.estimate.iter().chain(&memory.command);
         let mut integrals = memory.integrals;
         let mut estimate = [0.0; MOST_STATES];
-        if Self::believes(measured) {
+        if self.believes(measured) {
             add_products(&mut estimate, &self.gains.filter, known.chain(&deviation));
             for (i, integral) in integrals.iter_mut().enumerate() {
                 *integral += self.designs[0].period_s * self.limited(i, deviation[i] - wanted[i]);

@@ -84,7 +84,7 @@ impl Running {
         let measured = std::array::from_fn(|i| inputs[i]);
         let manoeuvre = self.commands.at(time_s - self.start_s);
         let wanted = std::array::from_fn(|i| manoeuvre[i] + inputs[MEASURED + 1 + i]);
-        if !Pilot::believes(&measured) {
+        if !self.pilot.believes(&measured) {
             self.unbelieved_s.get_or_insert(time_s);
         }
         self.pilot.schedule(inputs[FUEL]);
@@ -168,8 +168,8 @@ impl Simulation for Running {
         if let Some(time_s) = self.unbelieved_s.filter(|_| !self.told) {
             self.told = true;
             say(format!(
-                "a measurement is not believed, first at t = {time_s} s: V must be positive and all must be \
-                 finite; the estimate goes on without it, and `missed` counts"
+                "a measurement is not believed, first at t = {time_s} s: V must exceed half of level \
+                 flight's and all must be finite; the estimate goes on without it, and `missed` counts"
             ));
         }
     }
