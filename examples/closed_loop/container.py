@@ -1,9 +1,9 @@
 """The closed loop as one FMU: autopilot and vehicle in a container, which brings its own master.
 
-FMUContainer of the FMU Manipulation Toolbox packs both with a native master. Every 10 ms both FMUs
-step with what the other had before the step, as in the masters of SSP: a command acts one step
-late. The container has the parameters of both, as `vehicle.mach0`, `autopilot.command1_time`; an
-enumeration is an integer there.
+FMUContainer of the FMU Manipulation Toolbox packs them with a native master. Every 10 ms all FMUs
+step with what the others had before the step, as in the masters of SSP: a command acts one step
+late. The container has the parameters of all, as `vehicle.mach0`, `autopilot.command1_time`; an
+enumeration is an integer there. Names of FMUs are in lower case.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ try:
     from fmu_manipulation_toolbox.assembly import Assembly, AssemblyError
     from fmu_manipulation_toolbox.container import FMUContainerError
 
+    import hardware
     import system
     from law import PERIOD_S, autopilot_beside
-    from system import COMMANDS, MEASURED, BadSystem
+    from system import BadSystem, Component
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -40,12 +41,11 @@ OUTPUTS = {
 }
 
 
-def description(name: str, period_s: float) -> dict[str, object]:
+def description(name: str, components: list[Component], period_s: float) -> dict[str, object]:
     """What FMUContainer reads."""
-    vehicle, autopilot = "vehicle.fmu", "autopilot.fmu"
     return {
         "name": name,
-        "fmu": [autopilot, vehicle],
+        "fmu": [f"{component.name}.fmu" for component in components],
         "step_size": period_s,
         "sequential": False,
         "auto_parameter": True,
@@ -53,34 +53,44 @@ def description(name: str, period_s: float) -> dict[str, object]:
         "auto_output": False,
         "output": [[f"{fmu}.fmu", name, name] for fmu, names in OUTPUTS.items() for name in names],
         "link": [
-            *([vehicle, name, autopilot, name] for name in MEASURED),
-            *([autopilot, name, vehicle, name] for name in COMMANDS),
+            [f"{source}.fmu", output, f"{target}.fmu", into]
+            for source, output, target, into in system.connected(components)
         ],
     }
 
 
-def build(path: Path, vehicle: Path, autopilot: Path, period_s: float = PERIOD_S) -> Path:
-    """Write the container of these FMUs; or BadSystem, if one lacks a variable."""
+def build(path: Path, components: list[Component], period_s: float = PERIOD_S) -> Path:
+    """Write the container of these FMUs; or BadSystem, if one lacks a variable.
+
+    Without their parameters: what FMUContainer starts with, the container's own parameters cannot
+    change any more. `settings` are for its master.
+    """
     # The toolbox warns of each output that is not connected.
     logging.getLogger(LOGGED).setLevel(logging.CRITICAL)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        for fmu, file in (("vehicle", vehicle), ("autopilot", autopilot)):
-            system.read(file)
-            shutil.copy(file, folder / f"{fmu}.fmu")
+        for component in components:
+            system.read(component.fmu)
+            shutil.copy(component.fmu, folder / f"{component.name}.fmu")
         plan = folder / "loop.json"
-        plan.write_text(json.dumps(description(path.name, period_s)), encoding="utf-8")
+        text = json.dumps(description(path.name, components, period_s))
+        plan.write_text(text, encoding="utf-8")
         try:
             Assembly(plan.name, fmu_directory=folder).make_fmu()
         except (FMUContainerError, AssemblyError) as failure:
-            raise BadSystem(f"{vehicle}, {autopilot}: {failure}") from failure
+            files = ", ".join(str(component.fmu) for component in components)
+            raise BadSystem(f"{files}: {failure}") from failure
         shutil.copy(folder / path.name, path)
     return path
 
 
-def commands(manoeuvre: Path) -> dict[str, float]:
-    """The manoeuvre of a CSV file as parameters of the container; or BadSystem."""
-    return {f"autopilot.{name}": value for name, value in system.commands(manoeuvre).items()}
+def settings(components: list[Component]) -> dict[str, float]:
+    """Parameters of the components as those of the container, which names FMUs in lower case."""
+    return {
+        f"{component.name.lower()}.{name}": value
+        for component in components
+        for name, value in component.parameters.items()
+    }
 
 
 def main() -> None:
@@ -88,15 +98,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--autopilot", type=Path, help="its FMU; default: beside the vehicle's")
+    parser.add_argument(
+        "--hardware", action="store_true", help="with two actuators and three sensors between them"
+    )
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop/loop.fmu"))
     options = parser.parse_args()
     autopilot = options.autopilot or autopilot_beside(options.fmu)
-    for file in (options.fmu, autopilot):
+    between = hardware.components(options.fmu) if options.hardware else []
+    for file in (options.fmu, autopilot, *(part.fmu for part in between)):
         if not file.is_file():
             sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
     options.output.parent.mkdir(parents=True, exist_ok=True)
     try:
-        build(options.output, options.fmu, autopilot)
+        build(options.output, system.native(options.fmu, autopilot, between=between))
     except (BadSystem, OSError) as failure:
         sys.exit(f"error: {failure}")
     count = len(read_model_description(str(options.output)).modelVariables)

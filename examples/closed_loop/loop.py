@@ -16,7 +16,7 @@ from flight import Instance, NoFlight
 
 WARNING = 1
 # What an FMU within the container says, but for the container's own account of the function.
-WITHIN = re.compile(r"(?:vehicle|autopilot)\.fmu: (?!fmu\w+ status=)(.*)", re.DOTALL)
+WITHIN = re.compile(r"\w+\.fmu: (?!fmu\w+ status=)(.*)", re.DOTALL)
 
 
 class Flown(NamedTuple):

@@ -7,7 +7,7 @@ case in vehicle.ssv.
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import isfinite
 from pathlib import Path
 from typing import NamedTuple
@@ -22,7 +22,7 @@ from law import Law
 HERE = Path(__file__).resolve().parent
 SSP = "http://ssp-standard.org/SSP1/SystemStructure"
 MEASURED, WANTED, COMMANDS = ("V", "gamma", "q"), ("V_change", "gamma_wanted"), ("delta_e", "phi")
-# Connections from outputs to inputs.
+# Connections from outputs to inputs; a sensor or an actuator of the signal's name stands between.
 LOOP = [
     *[("vehicle", name, "autopilot", name) for name in MEASURED],
     *[("autopilot", name, "vehicle", name) for name in COMMANDS],
@@ -40,6 +40,7 @@ HEADER = '<?xml version="1.0" encoding="UTF-8"?>\n'
 INLINE, SET = "1.0", "initial"
 # Breakpoints of the native autopilot.
 BREAKPOINTS = 8
+NONE: Mapping[str, float] = {}
 
 
 class BadSystem(Exception):
@@ -51,7 +52,7 @@ class Component(NamedTuple):
 
     name: str
     fmu: Path
-    parameters: Mapping[str, float] = {}
+    parameters: Mapping[str, float] = NONE
 
 
 def check_manoeuvre(path: Path) -> np.ndarray:
@@ -80,16 +81,28 @@ def commands(manoeuvre: Path) -> dict[str, float]:
 
 
 def native(
-    vehicle: Path, autopilot: Path, manoeuvre: Path, case: Mapping[str, float]
+    vehicle: Path,
+    autopilot: Path,
+    manoeuvre: Path | None = None,
+    case: Mapping[str, float] = NONE,
+    between: Iterable[Component] = (),
 ) -> list[Component]:
-    """The loop of the FMUs ahv and ahv_autopilot; `case`: parameters of the vehicle."""
+    """The loop of the FMUs ahv and ahv_autopilot; or BadSystem.
+
+    Without a manoeuvre in level flight; `case`: parameters of the vehicle; `between`: actuators and
+    sensors.
+    """
+    given = commands(manoeuvre) if manoeuvre else NONE
     return [
-        Component("autopilot", autopilot, commands(manoeuvre)),
+        Component("autopilot", autopilot, given),
+        *between,
         Component("vehicle", vehicle, case),
     ]
 
 
-def foreign(vehicle: Path, law: Law, manoeuvre: Path, folder: Path) -> list[Component]:
+def foreign(
+    vehicle: Path, law: Law, manoeuvre: Path, folder: Path, between: Iterable[Component] = ()
+) -> list[Component]:
     """The loop with an autopilot and a manoeuvre in Python, whose FMUs are built in `folder`."""
     check_manoeuvre(manoeuvre)
     law.save(folder / "law.json")
@@ -102,13 +115,12 @@ def foreign(vehicle: Path, law: Law, manoeuvre: Path, folder: Path) -> list[Comp
         Component(name, FmuBuilder.build_FMU(HERE / f"{name}.py", folder / f"{name}.fmu", own))
         for name, own in files.items()
     ]
-    return [*parts, Component("vehicle", vehicle)]
+    return [*parts, *between, Component("vehicle", vehicle)]
 
 
 def build(path: Path, components: list[Component], stop_s: float, version: str = "2.0") -> Path:
     """Write the .ssp file of this version of the standard; or BadSystem."""
-    names = {component.name for component in components}
-    connections = LOOP + (FROM_MANOEUVRE if "manoeuvre" in names else [])
+    connections = connected(components)
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         described = []
         for component in components:
@@ -126,6 +138,18 @@ def build(path: Path, components: list[Component], stop_s: float, version: str =
             "SystemStructure.ssd", structure("".join(described), connections, stop_s, version)
         )
     return path
+
+
+def connected(components: list[Component]) -> list[tuple[str, str, str, str]]:
+    """Connections of a loop of these components."""
+    names, found = {component.name for component in components}, []
+    for source, signal, target, into in LOOP + FROM_MANOEUVRE:
+        for part in names & {f"{signal}_sensor", f"{signal}_actuator"}:
+            found.append((source, signal, part, "u"))
+            source, signal = part, "y"
+        if source in names:
+            found.append((source, signal, target, into))
+    return found
 
 
 def read(fmu: Path) -> dict[str, ModelVariable]:
@@ -176,12 +200,14 @@ def parameter_set(component: Component, variables: dict[str, ModelVariable], ver
     for name, value in component.parameters.items():
         if name not in variables or variables[name].causality != "parameter":
             raise BadSystem(f"{component.fmu}: there is no parameter {name}")
-        if variables[name].type != "Real":
+        kind = variables[name].type
+        if kind not in ("Real", "Integer"):
             # libcosim and Ecos set no enumerations, and FMPy takes every Boolean for true.
             raise BadSystem(f"{name} is not real: masters do not set it alike")
         if not isfinite(value):
             raise BadSystem(f"{name} = {value} is refused: a number is expected")
-        rows.append(f'<ssv:Parameter name="{name}"><ssv:Real value="{value!r}"/></ssv:Parameter>\n')
+        text = f'<ssv:{kind} value="{value!r}"/>'
+        rows.append(f'<ssv:Parameter name="{name}">{text}</ssv:Parameter>\n')
     return (
         f'<ssv:ParameterSet version="{version}" name="{SET}"\n'
         f'    xmlns:ssv="{SSP}ParameterValues" xmlns:ssc="{SSP}Common">\n'

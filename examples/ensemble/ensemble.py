@@ -22,6 +22,7 @@ try:
 
     import container
     import pictures
+    import system
     from batch import HISTORIES, SAMPLE_S, Loaded, Task
     from cluster import connect, fly
     from law import BadLaw, Law, autopilot_beside
@@ -68,7 +69,8 @@ def prepare(options: argparse.Namespace) -> tuple[Loaded, Task, np.ndarray, Part
     if options.flights < 1 or options.stop <= 0.0:
         sys.exit("error: at least one flight of more than 0 s is expected")
     try:
-        commands = container.commands(LOOP / "manoeuvre.csv")
+        both = system.native(options.fmu, autopilot, LOOP / "manoeuvre.csv")
+        commands = container.settings(both)
         law = Law.within(autopilot)
         what = {
             "flights": options.flights,
@@ -79,7 +81,7 @@ def prepare(options: argparse.Namespace) -> tuple[Loaded, Task, np.ndarray, Part
             "commands": commands,
         }
         identity = claim(options.output, what)
-        loop = container.build(options.output / "loop.fmu", options.fmu, autopilot)
+        loop = container.build(options.output / "loop.fmu", both)
     except AnotherEnsemble as other:
         sys.exit(f"error: {other}: give another --output")
     except (BadLaw, BadSystem, OSError) as failure:

@@ -72,7 +72,7 @@ def main() -> None:
     autopilot = options.autopilot or autopilot_beside(options.fmu)
     manoeuvre = ensemble.LOOP / "manoeuvre.csv"
     ssp = options.output / "closed_loop_ssp1.ssp"
-    system.build(ssp, system.native(options.fmu, autopilot, manoeuvre, {}), stop_s, "1.0")
+    system.build(ssp, system.native(options.fmu, autopilot, manoeuvre), stop_s, "1.0")
     csv = options.output / "flight.csv"
     known = vehicles[0]
     _, trim = margins_of(linearizer, task.law, known)

@@ -94,11 +94,10 @@ def test_parameter_sets_reach_autopilot_and_vehicle(
         flown[version] = fly_libcosim(path, tmp_path / "flight.csv", STOP_S)
     assert np.array_equal(flown["1.0"], flown["2.0"])
     assert agreement(flown["2.0"], fly_fmpy(tmp_path / "1.0.ssp", STOP_S), names(path)) < 1e-9
-    loop = container.build(tmp_path / "loop.fmu", package.path, autopilot)
+    loop = container.build(tmp_path / "loop.fmu", parts)
     with zipfile.ZipFile(loop) as archive:
         archive.extractall(tmp_path / "loop")
-    settings = container.commands(EXAMPLE / "manoeuvre.csv")
-    settings |= {f"vehicle.{name}": value for name, value in case.items()}
+    settings = container.settings(parts)
     with Loop(str(tmp_path / "loop"), ("V", "gamma", "slosh2")) as instance:
         rows = instance.fly(settings, STOP_S, design.PERIOD_S).rows
         # Neither the step nor a flight before it changes a flight.
@@ -114,7 +113,7 @@ def test_the_autopilot_in_python_flies_like_the_native_one(
     package: Package, autopilot: Path, ssp: Path, tmp_path: Path
 ) -> None:
     """Two programs of one law; what differs is rounding, and that of the design in LAPACK."""
-    parts = system.native(package.path, autopilot, EXAMPLE / "manoeuvre.csv", {})
+    parts = system.native(package.path, autopilot, EXAMPLE / "manoeuvre.csv")
     path = system.build(tmp_path / "native.ssp", parts, STOP_S)
     flown = [fly_libcosim(file, tmp_path / "flight.csv", STOP_S) for file in (ssp, path)]
     for name in names(path):
@@ -225,9 +224,9 @@ def test_fmus_that_do_not_fit_are_refused(
         (package.path, none, "none.fmu is no FMU"),
     ):
         with pytest.raises(BadSystem, match=said):
-            system.build(tmp_path / "bad.ssp", system.native(vehicle, pilot, manoeuvre, {}), STOP_S)
+            system.build(tmp_path / "bad.ssp", system.native(vehicle, pilot, manoeuvre), STOP_S)
         with pytest.raises(BadSystem):
-            container.build(tmp_path / "bad.fmu", vehicle, pilot)
+            container.build(tmp_path / "bad.fmu", system.native(vehicle, pilot))
 
 
 @pytest.mark.parametrize(
