@@ -60,6 +60,16 @@ def test_verif_commands_are_those_of_the_law_in_numpy(autopilot: Package) -> Non
             assert native["saturated"] == pilot.saturated > 0
 
 
+def test_a_speed_of_no_flight_is_not_believed(autopilot: Package) -> None:
+    """That of a sensor without a signal, which its noise moves, would upset the estimate."""
+    own = max(schedule(autopilot), key=lambda own: own.fuel_fraction)
+    with autopilot.flight() as native:
+        for share, missed in ((0.0, 1), (1e-4, 2), (0.499, 3), (0.501, 3), (1.0, 3)):
+            native.set(V=float(share * own.level[0]))
+            native.step(own.period_s)
+            assert native["missed"] == missed, share
+
+
 def test_the_law_in_the_fmu_is_what_the_design_gives_today(
     package: Package, autopilot: Package
 ) -> None:
