@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 import zipfile
 
 import numpy as np
@@ -54,3 +55,21 @@ def test_verif_fmpy_flies_the_reference_set(package: Package, files: dict[str, s
         assert np.abs(result[name] - reference[name]).max() <= TOLERANCE * scale, name
     moved = np.ptp(inputs["delta_e"])
     assert np.ptp(reference["delta_e_effective"]) == pytest.approx(moved, rel=1e-12) != 0.0
+
+
+def test_verif_fmpy_s_calls_give_the_bits_of_the_reference_set(
+    package: Package, files: dict[str, str]
+) -> None:
+    """Every output at every step, if the clock of the master is that of the set."""
+    inputs, reference = (
+        np.genfromtxt(io.StringIO(files[part]), delimiter=",", names=True)
+        for part in ("in.csv", "ref.csv")
+    )
+    times, outputs = reference["time"], reference.dtype.names[1:]
+    # Where an input jumps, the later row holds.
+    held = np.searchsorted(inputs["time"], times, side="right") - 1
+    with package.flight() as flight:
+        for k, (start, end) in enumerate(itertools.pairwise(times)):
+            flight.set(delta_e=float(inputs["delta_e"][held[k]]), phi=0.0)
+            flight.fmu.doStep(start, end - start)
+            assert flight.get(*outputs).tolist() == list(reference[k + 1])[1:], end
