@@ -3,11 +3,12 @@
 use super::controlled_vehicle::{ControlledVehicle, in_effect};
 use super::envelope_error::envelope_error;
 use super::inputs::Inputs;
+use super::limits;
 use super::method::Method;
 use crate::dynamics::trim::Trim;
 use crate::dynamics::{Outputs, out_of_domain};
 use crate::error::Error;
-use crate::solve::{DOP853, Integrator, MAX_TRIALS, Outcome, System};
+use crate::solve::{Integrator, MAX_TRIALS, Outcome};
 use crate::vehicle::{CONTROLS, Control, Gust, State, Vehicle};
 
 /// Outputs, derivatives and controls at an instant.
@@ -167,21 +168,31 @@ impl Flight {
             _ => [self.time, 0.0],
         };
         let Self { vehicle, base, method, state, inputs, .. } = self;
+        let moving = inputs.moving();
         let controlled = ControlledVehicle {
             vehicle,
             base: *base,
             inputs,
-            held: (!inputs.moving()).then(|| in_effect(vehicle, base, &inputs.values)),
+            held: (!moving).then(|| in_effect(vehicle, base, &inputs.values)),
         };
         let length = end - start;
         // Counted from the start, so that a late one costs no digits, and legs take the steps of the whole.
-        let interval = [before, length];
-        // Inputs that move may meet a limit within the step: a method of few stages overlooks that.
-        let (integrator, slope) = (&mut self.integrator, &mut self.slope);
-        let outcome = if controlled.is_autonomous() {
-            integrator.run(&mut **method, &controlled, state, interval, slope, once)
-        } else {
-            integrator.run(&mut &DOP853, &controlled, state, interval, slope, once)
+        let (ranges, mut from) = (limits::ranges(vehicle, base), before);
+        let outcome = loop {
+            // No method expects the kink of an input that meets a limit.
+            let to = if moving { inputs.next_limit(&ranges, from, length) } else { length };
+            let (integrator, slope) = (&mut self.integrator, &mut self.slope);
+            let outcome =
+                integrator.run(&mut **method, &controlled, state, [from, to], slope, once);
+            if moving {
+                // It is of an instant that may be rounded otherwise than that of the inputs.
+                *slope = None;
+            }
+            match outcome {
+                Outcome::Complete if to < length && once => break Outcome::Paused(to),
+                Outcome::Complete if to < length => from = to,
+                outcome => break outcome,
+            }
         };
         let flown = match outcome {
             Outcome::Complete => length,
@@ -191,7 +202,6 @@ impl Flight {
             | Outcome::Paused(flown) => flown,
         };
         let paused = matches!(outcome, Outcome::Paused(_));
-        let moving = inputs.moving();
         *inputs = Inputs { ahead: moving && paused, ..inputs.after(flown - before) };
         // Inputs that move are counted from the present instant.
         self.legs = (paused && !moving).then_some([start, flown]);

@@ -4,7 +4,7 @@
 //! | file | what it holds |
 //! |---|---|
 //! | `parameters`, `setup` | what can be chosen, and the flight that starts from it |
-//! | `inputs` | inputs between communication points: polynomials in time |
+//! | `inputs`, `limits` | inputs between communication points: polynomials in time, and when they meet their limits |
 //! | `controlled_vehicle`, `method` | the vehicle under its inputs as the integrator sees it; the integrator |
 //! | `in_flight` | inputs, states, outputs; step by step |
 //! | `tangent`, `snapshot` | directional derivatives; what has to be remembered |
@@ -15,6 +15,7 @@ mod controlled_vehicle;
 mod envelope_error;
 mod in_flight;
 mod inputs;
+mod limits;
 mod method;
 mod parameters;
 mod setup;

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `scalar` | real and dual numbers |
 //! | `integrate` | step-size control over one interval |
-//! | `dop853` | explicit Runge-Kutta method of order 8 |
+//! | `dop853` | explicit Runge-Kutta method of order 8, to compare with |
 //! | `exponential` | exponential Runge-Kutta method with a frozen linear part |
 //! | `decoupling`, `blocks` | its block diagonalisation and phi functions |
 //! | `chebyshev` | polynomial interpolation |

@@ -47,15 +47,29 @@ fn verif_the_coordinates_decouple_every_vehicle() {
     }
 }
 
-/// A vehicle under controls that do not move.
-struct Held<'a>(&'a Vehicle, Control, Gust);
+/// A vehicle under controls that are held or move, and the air.
+struct Controlled<'a> {
+    vehicle: &'a Vehicle,
+    control: Control,
+    control_per_s: Control,
+    gust: Gust,
+}
 
-impl System<STATES> for Held<'_> {
-    fn derivatives(&self, _: f64, x: &State) -> State {
-        self.0.derivatives(x, &self.1, self.2)
+impl Controlled<'_> {
+    fn at(&self, t: f64) -> Control {
+        std::array::from_fn(|i| self.control[i] + t * self.control_per_s[i])
     }
-    fn holds(&self, _: f64, x: &State) -> bool {
-        self.0.holds(x, &self.1, self.2)
+}
+
+impl System<STATES> for Controlled<'_> {
+    fn derivatives(&self, t: f64, x: &State) -> State {
+        self.vehicle.derivatives(x, &self.at(t), self.gust)
+    }
+    fn holds(&self, t: f64, x: &State) -> bool {
+        self.vehicle.holds(x, &self.at(t), self.gust)
+    }
+    fn is_autonomous(&self) -> bool {
+        self.control_per_s == [0.0; 2]
     }
     fn nominal(&self) -> &State {
         &NOMINAL
@@ -65,7 +79,7 @@ impl System<STATES> for Held<'_> {
 /// The state after some equal steps, or where the vehicle leaves its envelope.
 fn flown(
     method: &mut impl Method<STATES>,
-    system: &Held,
+    system: &Controlled,
     start: &State,
     tolerance: f64,
     steps: u32,
@@ -110,6 +124,7 @@ proptest! {
         fuel in 0.1..1.0_f64,
         disturbance in prop::array::uniform12(-4.0..4.0_f64),
         controls in [-0.1..0.1_f64, 0.0..0.5_f64],
+        control_per_s in prop_oneof![Just([0.0; 2]), [-0.5..0.5_f64, -1.0..1.0_f64]],
         gust in prop_oneof![Just([0.0; GUSTS]), [-10.0..10.0_f64, -10.0..10.0_f64]],
         steps in prop_oneof![Just(1_u32), Just(4), Just(40), Just(400)],
         digits in 5..12_i32,
@@ -126,7 +141,7 @@ proptest! {
         }
         let control = [trim.control[DELTA_E] + controls[0], controls[1]];
         prop_assume!(vehicle.holds(&start, &control, gust));
-        let system = Held(&vehicle, control, gust);
+        let system = Controlled { vehicle: &vehicle, control, control_per_s, gust };
         let tolerance = 10.0_f64.powi(-digits);
         let method = method(&vehicle, &trim);
         let ours = flown(&mut method.clone(), &system, &start, tolerance, steps);
@@ -187,7 +202,12 @@ fn verif_the_edge_of_an_atmospheric_layer_costs_no_digits() {
     start[GAMMA] = 0.03;
     start[ALPHA] = 0.02;
     let trim = Trim { state: start, control: [0.1, 0.3] };
-    let system = Held(&vehicle, trim.control, [0.0; GUSTS]);
+    let system = Controlled {
+        vehicle: &vehicle,
+        control: trim.control,
+        control_per_s: [0.0; 2],
+        gust: [0.0; GUSTS],
+    };
     for steps in [1, 40] {
         let ours = flown(&mut method(&vehicle, &trim), &system, &start, 1e-8, steps).0;
         let exact = flown(&mut &DOP853, &system, &start, 1e-13, steps).0;

@@ -3,7 +3,7 @@
 use crate::model::{CONFIGURATIONS, distance, flight, setup};
 use ahv::error::Error;
 use ahv::flight::Flight;
-use ahv::vehicle::{Configuration, DELTA_E, State};
+use ahv::vehicle::{Configuration, DELTA_E, PHI, State};
 
 /// Flies the default doublet-like input over the given communication points up to 0.5 s.
 fn fly(mut flight: Flight, points: impl Iterator<Item = f64>) -> State {
@@ -67,5 +67,27 @@ fn verif_a_long_interval_that_leaves_the_envelope_says_so() {
         let error = flight.advance(length).unwrap_err();
         assert!(matches!(error, Error::Envelope { .. }), "{length} s: {error}");
         assert!(flight.time() < 20.0);
+    }
+}
+
+#[test]
+fn verif_an_input_that_meets_a_limit_within_a_step_acts_at_it_from_then_on() {
+    const STEP_S: f64 = 0.05;
+    for percent in [1, 10, 30, 50, 70, 90, 95, 98, 99] {
+        let at = STEP_S * f64::from(percent) / 100.0;
+        let start = || {
+            let mut flight = flight(Configuration::SloshBeam);
+            let least = -flight.trim().control[PHI];
+            flight.set_input_derivative(PHI, 1, least / at);
+            (flight, least)
+        };
+        let (mut one, _) = start();
+        one.advance(STEP_S).unwrap();
+        let (mut two, least) = start();
+        two.advance(at).unwrap();
+        two.set_input(PHI, least);
+        two.advance(STEP_S).unwrap();
+        let off = distance(one.state(), two.state());
+        assert!(off < 1e-7, "at {percent} %: {off:e}");
     }
 }
