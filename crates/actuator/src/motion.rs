@@ -6,7 +6,7 @@
 
 use crate::model::{Actuator, Error, Order};
 use crate::passage::{Limit, SIDES, first_passage};
-use crate::response::{Motion, Ramp, Response};
+use crate::response::{Motion, ROUNDINGS, Ramp, Response};
 
 /// What the actuator does.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +18,6 @@ enum Regime {
 /// How a piece ends, and when, s.
 type End = Option<(f64, Regime)>;
 
-/// Differences of this many roundings are none.
-const ROUNDINGS: f64 = 8.0;
 /// A lightly damped actuator that rings into its limits until it rests has fewer pieces of motion.
 const MOST_PIECES: usize = 10_000;
 
@@ -88,6 +86,15 @@ impl Actuator {
         Regime::Free
     }
 
+    /// At a stop it loses its speed towards it.
+    fn stop_at_stops(&self, motion: &mut Motion) {
+        for side in SIDES {
+            if side * motion.position >= self.stop(side) {
+                motion.rate = side * (side * motion.rate).min(0.0);
+            }
+        }
+    }
+
     /// At rest at a stop, until the command turns back.
     fn at_stop(&self, motion: &mut Motion, command: Ramp, h: f64, side: f64) -> End {
         let (stop, command) = (self.stop(side), command.mirrored(side));
@@ -128,7 +135,7 @@ impl Actuator {
         match end {
             Some((_, Limit::Rate(side))) => motion.rate = side * self.rate_limit,
             Some((_, Limit::Stop(side))) => motion.position = side * self.stop(side),
-            None => {}
+            None => self.stop_at_stops(motion),
         }
         end.map(|(t, limit)| (t, Regime::Held(limit)))
     }

@@ -19,10 +19,6 @@ pub enum Limit {
 /// The upper side, then the lower.
 pub const SIDES: [f64; 2] = [1.0, -1.0];
 
-/// A limit, and whether the motion has been within it. What starts at a limit without being held there moves away from it,
-/// and does not pass it before.
-type Watched = (Limit, bool);
-
 /// The first limit that a motion with this start passes within `h`, and when, s.
 pub fn first_passage(
     actuator: &Actuator,
@@ -30,14 +26,11 @@ pub fn first_passage(
     response: &Response,
     h: f64,
 ) -> Option<(f64, Limit)> {
-    // Exactly where it starts: rounding decides nothing.
-    let at_start = [start.position, start.rate, 0.0];
-    let watch = |limit| (limit, excess(actuator, limit, at_start) < 0.0);
-    let mut rates = SIDES.map(|side| watch(Limit::Rate(side)));
-    let mut stops = SIDES.map(|side| watch(Limit::Stop(side)));
+    let passage =
+        |limit: fn(f64) -> Limit, from, to| passage(actuator, SIDES.map(limit), response, from, to);
     let (mut from, mut rate) = (0.0, start.rate);
     for to in response.monotonic(h) {
-        let passed = passage(actuator, &mut rates, response, from, to);
+        let passed = passage(Limit::Rate, from, to);
         let to = passed.map_or(to, |(t, _)| t);
         let [_, rate_then, _] = response.at(to);
         // The position turns where the rate is zero.
@@ -48,7 +41,7 @@ pub fn first_passage(
             })
         });
         for t in turn.into_iter().chain([to]) {
-            let stopped = passage(actuator, &mut stops, response, from, t);
+            let stopped = passage(Limit::Stop, from, t);
             if stopped.is_some() {
                 return stopped;
             }
@@ -62,33 +55,26 @@ pub fn first_passage(
     None
 }
 
-/// The limit that is passed on an interval on which the limited quantity is monotonic, and when, s.
+/// The limit that is passed on an interval on which the limited quantity is monotonic, and when, s. What starts at a limit
+/// without being held there moves away from it; so one that is exceeded by rounding is not passed.
 fn passage(
     actuator: &Actuator,
-    watched: &mut [Watched; 2],
+    limits: [Limit; 2],
     response: &Response,
     from: f64,
     to: f64,
 ) -> Option<(f64, Limit)> {
-    let excess_at = |limit, t| excess(actuator, limit, response.at(t));
-    for (limit, within) in watched {
-        let then = excess_at(*limit, to);
-        if *within && then > 0.0 {
-            let slope = |t| match (*limit, response.at(t)) {
-                (Limit::Rate(side), [_, _, acceleration]) => side * acceleration,
-                (Limit::Stop(side), [_, rate, _]) => side * rate,
-            };
-            return Some((root(from, to, |t| [excess_at(*limit, t), slope(t)]), *limit));
-        }
-        *within |= then < 0.0;
-    }
-    None
-}
-
-/// By how much a limit is exceeded.
-fn excess(actuator: &Actuator, limit: Limit, [position, rate, _]: [f64; 3]) -> f64 {
-    match limit {
-        Limit::Rate(side) => side * rate - actuator.rate_limit,
-        Limit::Stop(side) => side * position - actuator.stop(side),
-    }
+    let [position, rate] = response.rounding(to);
+    limits.into_iter().find_map(|limit| {
+        let excess_and_slope = |t| {
+            let [position, rate, acceleration] = response.at(t);
+            match limit {
+                Limit::Rate(side) => [side * rate - actuator.rate_limit, side * acceleration],
+                Limit::Stop(side) => [side * position - actuator.stop(side), side * rate],
+            }
+        };
+        let rounding = if let Limit::Rate(_) = limit { rate } else { position };
+        let passed = excess_and_slope(to)[0] > rounding;
+        passed.then(|| (root(from, to, excess_and_slope), limit))
+    })
 }

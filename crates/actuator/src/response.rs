@@ -52,6 +52,8 @@ enum Basis {
 
 /// After so many time constants nothing is left.
 const DECAYED: f64 = 750.0;
+/// Differences of this many roundings are none.
+pub(crate) const ROUNDINGS: f64 = 8.0;
 /// So much later there is no zero, for any step.
 const NEVER: f64 = 1e30;
 
@@ -124,6 +126,8 @@ pub struct Response {
     steady: Ramp,
     /// Coefficients of the deviation and of its first and second derivative.
     deviation: [[f64; 2]; 3],
+    /// Sizes of the positions and rates that the response is a sum of.
+    sizes: [f64; 2],
 }
 
 impl Response {
@@ -147,7 +151,9 @@ impl Response {
                 ]
             }
         };
-        Self { basis, steady, deviation }
+        let speed = command.slope.abs() + start.rate.abs();
+        let size = start.position.abs() + command.value.abs() + actuator.lag() * speed;
+        Self { basis, steady, deviation, sizes: [size, omega * size + speed] }
     }
 
     /// Position, rate and acceleration after a time, s.
@@ -155,6 +161,12 @@ impl Response {
         let [first, second] = self.basis.at(t);
         let [e, rate, acceleration] = self.deviation.map(|[a, b]| a * first + b * second);
         [self.steady.after(t).value + e, self.steady.slope + rate, acceleration]
+    }
+
+    /// How much of position and rate at a time (s) may be rounding.
+    pub fn rounding(&self, t: f64) -> [f64; 2] {
+        let [position, rate] = self.sizes;
+        [position + self.steady.slope.abs() * t, rate].map(|size| ROUNDINGS * f64::EPSILON * size)
     }
 
     /// Ends of the intervals on which the rate is monotonic, up to `h` (s): the zeros of the acceleration.

@@ -169,6 +169,43 @@ fn a_command_that_is_at_the_stop_but_for_rounding_pushes_as_it_moves() {
     }
 }
 
+/// Below its limit for so short a time that it moves by less than rounding.
+#[test]
+fn verif_a_limit_that_is_left_for_a_moment_holds() {
+    for (kind, lag) in [(1.0, 0.028), (2.0, 0.02)] {
+        for (side, digits) in
+            [1.0, -1.0].into_iter().flat_map(|side| (6..17).map(move |n| (side, n)))
+        {
+            let lead = -0.1_f64.powi(digits);
+            let scene = format!("kind {kind}, side {side}, lead {lead:e}");
+            let mut fast = actuator(&[
+                ("kind", kind),
+                ("position_max", 10.0),
+                ("position_min", -10.0),
+                ("u", 5.0 * side),
+            ]);
+            step_to(&mut fast, 0.1);
+            let before = side * y(&mut fast);
+            input(&mut fast, side * (before + lag * 2.0 + lead), side * 4.0);
+            step_to(&mut fast, 0.6);
+            let (position, rate) = (side * y(&mut fast), side * get(&mut fast, "rate"));
+            assert!(
+                (position - before - 1.0).abs() < 1e-10 && rate == 2.0,
+                "{scene}: {position}, {rate}"
+            );
+
+            // It is back there after two or three of these times.
+            for length in [4.0, 1e3, 0.5 / -lead] {
+                let mut stopped = actuator(&[("kind", kind), ("y0", side), ("rate_limit", 1e3)]);
+                input(&mut stopped, side * (1.0 + lead), side * 4.0);
+                step_to(&mut stopped, -lead / 4.0 * length);
+                let (position, rate) = (y(&mut stopped), get(&mut stopped, "rate"));
+                assert_eq!((position, rate), (side, 0.0), "{scene}, length {length}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_resting_actuator_stays_at_rest_with_the_same_bits() {
     for kind in [1.0, 2.0] {
