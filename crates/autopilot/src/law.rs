@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::gains::{Gains, lerp, mix, place};
 use crate::written::File;
 use fmi_model::identity::fnv;
+use fmi_model::location;
 use std::path::Path;
 
 /// States of a design model at most.
@@ -15,11 +16,14 @@ pub const COMMANDS: usize = 2;
 /// What is commanded, and the first two states of every design model: V and gamma.
 pub const WANTED: usize = 2;
 
-/// Largest sampling period, s.
+/// Sampling periods, s.
+pub(crate) const SHORTEST_PERIOD_S: f64 = 1e-9;
 pub(crate) const LONGEST_PERIOD_S: f64 = 10.0;
 
 /// The file in the resources of the FMU.
 pub const FILE: &str = "law.json";
+/// Its size limit: ours has 0.1 MB.
+const MOST_BYTES: u64 = 4_000_000;
 /// The law that is built in.
 pub const BUILT_IN: &str = include_str!("../law.json");
 
@@ -88,10 +92,9 @@ impl Law {
     ///
     /// # Errors
     /// [`Error::Unreadable`] and those of [`Law::parse`].
-    #[expect(clippy::disallowed_methods, reason = "reads its resources as other FMUs do")]
     pub fn in_folder(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(FILE);
-        let text = std::fs::read_to_string(&path)
+        let text = location::text(&path, MOST_BYTES)
             .map_err(|error| Error::Unreadable { path, why: error.to_string() })?;
         Self::parse(&text)
     }
@@ -101,6 +104,8 @@ impl Law {
     /// # Errors
     /// [`Error::Format`], [`Error::Design`].
     pub fn parse(text: &str) -> Result<Self, Error> {
+        // Some editors begin a file with a byte order mark.
+        let text = text.trim_start_matches('\u{feff}');
         let file: File =
             serde_json::from_str(text).map_err(|error| Error::Format { why: error.to_string() })?;
         if file.designs.is_empty() {
@@ -111,6 +116,11 @@ impl Law {
         let designs = designs?;
         for (i, pair) in designs.windows(2).enumerate() {
             let [a, b] = pair else { continue };
+            let [states, before] = [i + 1, i].map(|design| file.designs[design].states());
+            if a.period_s == b.period_s && states != before {
+                let problem = format!("has {states} rows; the design before has {before}");
+                return Err(Error::Design { design: i + 2, key: "A", problem });
+            }
             let problem = if a.period_s != b.period_s {
                 match designs[..=i].iter().any(|design| design.period_s == b.period_s) {
                     true => {

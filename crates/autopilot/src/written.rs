@@ -2,7 +2,10 @@
 
 use crate::error::Error;
 use crate::gains::{FEEDBACK_COLUMNS, FILTER_COLUMNS, Gains};
-use crate::law::{COMMANDS, Design, LONGEST_PERIOD_S, MEASURED, MOST_STATES, WANTED};
+use crate::law::{
+    COMMANDS, Design, LONGEST_PERIOD_S, MEASURED, MOST_STATES, SHORTEST_PERIOD_S, WANTED,
+};
+use fmi_model::instance::LARGEST;
 use serde::Deserialize;
 
 /// One design as in the file: n states, sampled every `period_s`.
@@ -35,11 +38,16 @@ pub struct File {
 }
 
 impl Written {
+    /// States of the design model.
+    pub fn states(&self) -> usize {
+        self.A.len()
+    }
+
     /// Checks a design and puts its matrices together.
     pub fn design(&self, number: usize) -> Result<Design, Error> {
         let written = self;
         let refuse = |key, problem| Err(Error::Design { design: number, key, problem });
-        let n = written.A.len();
+        let n = written.states();
         if !(WANTED..=MOST_STATES).contains(&n) {
             return refuse(
                 "A",
@@ -67,11 +75,32 @@ impl Written {
                 );
             }
         }
+        for (key, numbers) in [
+            ("A", written.A.concat()),
+            ("B", written.B.concat()),
+            ("C", written.C.concat()),
+            ("K", written.K.concat()),
+            ("Ki", written.Ki.concat()),
+            ("L", written.L.concat()),
+            ("level", written.level.to_vec()),
+            ("trim", written.trim.to_vec()),
+            ("lowest", written.lowest.to_vec()),
+            ("highest", written.highest.to_vec()),
+        ] {
+            if let Some(value) = numbers.iter().find(|number| number.abs() > LARGEST) {
+                return refuse(
+                    key,
+                    format!("has {value:e}; numbers up to {LARGEST:e} are possible"),
+                );
+            }
+        }
         let period_s = written.period_s;
-        if !(period_s > 0.0 && period_s <= LONGEST_PERIOD_S) {
+        if !(SHORTEST_PERIOD_S..=LONGEST_PERIOD_S).contains(&period_s) {
             return refuse(
                 "period_s",
-                format!("= {period_s} s must be within 0 and {LONGEST_PERIOD_S}"),
+                format!(
+                    "= {period_s:?} s must be within {SHORTEST_PERIOD_S:e} and {LONGEST_PERIOD_S}"
+                ),
             );
         }
         if !(0.0..=1.0).contains(&written.fuel_fraction) {

@@ -43,8 +43,11 @@ fn a_wrong_matrix_or_number_is_refused_with_design_key_and_limit() {
         ("K", json!([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]), "K has 3 numbers in row 1; 2 are needed"),
         ("Ki", json!([[1.0], [0.0]]), "Ki has 1 numbers in row 1; 2 are needed"),
         ("L", json!([[1.0, 0.0, 0.0]]), "L has 1 rows; 2 are needed"),
-        ("period_s", json!(0.0), "period_s = 0 s must be within 0 and 10"),
-        ("period_s", json!(-0.01), "period_s = -0.01 s must be within 0 and 10"),
+        ("period_s", json!(0.0), "period_s = 0.0 s must be within 1e-9 and 10"),
+        ("period_s", json!(-0.01), "period_s = -0.01 s must be within 1e-9 and 10"),
+        ("period_s", json!(1e-300), "period_s = 1e-300 s must be within 1e-9 and 10"),
+        ("K", json!([[1.0, 0.0], [0.0, -1e301]]), "K has -1e301; numbers up to 1e30 are possible"),
+        ("level", json!([2000.0, 0.0, 1e31]), "level has 1e31; numbers up to 1e30 are possible"),
         ("fuel_fraction", json!(1.5), "fuel_fraction = 1.5 must be within 0 and 1"),
         ("fuel_mass_kg_per_m", json!(-1.0), "fuel_mass_kg_per_m = -1 must not be negative"),
         ("speed_error_m_per_s", json!(0.0), "speed_error_m_per_s = 0 m/s must be positive"),
@@ -54,6 +57,39 @@ fn a_wrong_matrix_or_number_is_refused_with_design_key_and_limit() {
         let found = refused(key, value);
         assert!(found.starts_with(&format!("law.json: design 2: {said}")), "{found}");
     }
+}
+
+#[test]
+fn designs_that_gains_are_interpolated_between_have_the_same_states() {
+    let mut file = file(&[(0.01, 0.0), (0.01, 1.0)]);
+    let design = &mut file["designs"][1];
+    (design["A"], design["B"]) = (json!(vec![vec![0.0; 3]; 3]), json!(vec![vec![0.0; 2]; 3]));
+    (design["C"], design["L"]) = (json!(vec![vec![0.0; 3]; 3]), json!(vec![vec![0.0; 3]; 3]));
+    design["K"] = json!(vec![vec![0.0; 3]; 2]);
+    let said = "law.json: design 2: A has 3 rows; the design before has 2";
+    let refused = refusal(&file.to_string());
+    assert!(refused.starts_with(said), "{refused}");
+    file["designs"][1]["period_s"] = json!(0.02);
+    Law::parse(&file.to_string()).expect("other periods have models of their own");
+}
+
+#[test]
+fn a_byte_order_mark_is_no_part_of_the_law() {
+    Law::parse(&format!("\u{feff}{BUILT_IN}")).expect("the law behind the mark");
+}
+
+#[test]
+fn a_file_that_is_none_or_too_large_is_not_read() {
+    let folder = std::env::temp_dir().join(format!("ahv-law-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("law.json");
+    let refused = || Law::in_folder(&folder).unwrap_err().to_string();
+    std::fs::File::create(&path).unwrap().set_len(4_000_001).unwrap();
+    assert!(refused().contains("cannot be read: it has more than 4 MB"), "{}", refused());
+    std::fs::remove_file(&path).unwrap();
+    std::fs::create_dir(&path).unwrap();
+    assert!(refused().contains("cannot be read: it is no regular file"), "{}", refused());
+    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[test]

@@ -1,7 +1,27 @@
 //! Where a package's resources are: the folder that a master names by a URI (FMI 2.0, section 2.1.5) or
-//! by its path.
+//! by its path; and the files in it.
 
+use std::fs::{File, symlink_metadata};
+use std::io::{Error, Read, Result};
 use std::path::{Path, PathBuf};
+
+/// The text of a file, up to a size. Links, devices and pipes are refused: those may never end.
+///
+/// # Errors
+/// Those of the system, and what is refused.
+#[expect(clippy::disallowed_methods, reason = "the one place of the library that reads files")]
+pub fn text(path: &Path, most_bytes: u64) -> Result<String> {
+    let file = symlink_metadata(path)?;
+    if !file.is_file() {
+        return Err(Error::other("it is no regular file"));
+    }
+    if file.len() > most_bytes {
+        return Err(Error::other(format!("it has more than {} MB", most_bytes / 1_000_000)));
+    }
+    let mut text = String::new();
+    File::open(path)?.take(most_bytes).read_to_string(&mut text)?;
+    Ok(text)
+}
 
 /// The folder that `fmuResourceLocation` names: a URI with the scheme `file`, or a plain path, as some
 /// masters pass; none if it is empty.
