@@ -3,7 +3,8 @@
 use crate::gains::{FEEDBACK_COLUMNS, Gains};
 use crate::law::{COMMANDS, Design, MEASURED, MOST_STATES, WANTED};
 
-/// A measurement beyond this is not believed, in m/s, rad, rad/s: what is made of it does not overflow.
+/// A measurement beyond this is not believed, in m/s, rad, rad/s, and nothing that is remembered or wanted grows beyond
+/// it, whatever a model does without a measurement: nothing overflows.
 const LARGEST: f64 = 1e9;
 /// A speed below this share of level flight's is not believed: that of a sensor without a signal, which noise moves.
 const SLOWEST: f64 = 0.5;
@@ -66,13 +67,13 @@ impl Pilot {
             level,
             low,
             high,
-            speed_error: designs[0].speed_error_m_per_s,
+            speed_error: start.speed_error_m_per_s,
         }
     }
 
     /// Moves the gains to a measured fuel; one that is no mass is not believed.
     pub fn schedule(&mut self, fuel_mass_kg_per_m: f64) {
-        if fuel_mass_kg_per_m > 0.0 && fuel_mass_kg_per_m <= LARGEST {
+        if exceeds(fuel_mass_kg_per_m, 0.0) {
             self.move_to(fuel_mass_kg_per_m);
         }
     }
@@ -92,7 +93,8 @@ impl Pilot {
 
     /// Whether a measurement is believed: the speed is one of flight, and nothing is NaN or beyond any flight.
     pub fn believes(&self, measured: &[f64; MEASURED]) -> bool {
-        measured[0] > SLOWEST * self.level[0] && measured.iter().all(|value| value.abs() <= LARGEST)
+        let slowest = (SLOWEST * self.level[0]).max(0.0);
+        exceeds(measured[0], slowest) && measured.iter().all(|&value| is_moderate(value))
     }
 
     /// One sample: the command for the next one from what is measured now. A filter in predictor form knows
@@ -101,19 +103,25 @@ impl Pilot {
     /// A measurement that is not believed leaves the estimate to the model alone. While a command is at its
     /// limit the integrals are held.
     pub fn sample(&self, memory: &mut Memory, measured: &[f64; MEASURED], wanted: [f64; WANTED]) {
+        let wanted = wanted.map(bounded);
+        let believed = self.believes(measured);
+        // Compilers may compute before they know that they have to: NaN goes nowhere.
+        let measured = if believed { measured } else { &self.level };
         let deviation: [f64; MEASURED] = std::array::from_fn(|i| measured[i] - self.level[i]);
         let known = memory.estimate.iter().chain(&memory.command);
         let mut integrals = memory.integrals;
         let mut estimate = [0.0; MOST_STATES];
-        if self.believes(measured) {
+        if believed {
             add_products(&mut estimate, &self.gains.filter, known.chain(&deviation));
             for (i, integral) in integrals.iter_mut().enumerate() {
-                *integral += self.designs[0].period_s * self.limited(i, deviation[i] - wanted[i]);
+                let error = self.limited(i, deviation[i] - wanted[i]);
+                *integral = bounded(*integral + self.designs[0].period_s * error);
             }
         } else {
             memory.missed += 1.0;
             add_products(&mut estimate, &self.gains.model, known);
         }
+        let estimate = estimate.map(bounded);
         let mut away = [0.0; FEEDBACK_COLUMNS];
         away[..MOST_STATES].copy_from_slice(&estimate);
         for (i, wanted) in wanted.into_iter().enumerate() {
@@ -136,6 +144,21 @@ impl Pilot {
     fn limited(&self, which: usize, error: f64) -> f64 {
         if which == 0 { error.max(-self.speed_error).min(self.speed_error) } else { error }
     }
+}
+
+/// Whether a number is neither NaN nor beyond any flight: as bits, which have the order of positive numbers. A comparison
+/// of NaN may be a floating-point exception, which some hosts trap.
+fn is_moderate(value: f64) -> bool {
+    value.abs().to_bits() <= LARGEST.to_bits()
+}
+
+/// Whether a moderate number is larger than one that is not negative.
+fn exceeds(value: f64, least: f64) -> bool {
+    is_moderate(value) && value.is_sign_positive() && value.to_bits() > least.to_bits()
+}
+
+fn bounded(value: f64) -> f64 {
+    value.clamp(-LARGEST, LARGEST)
 }
 
 /// sum += matrix factors, column by column.

@@ -25,10 +25,14 @@ pub fn save(running: &Running, numbers: &mut Vec<f64>) {
     numbers.push(f64::from(running.ahead));
 }
 
-/// Whether an autopilot can have these numbers: only a measurement can be no number.
+/// Whether an autopilot can have these numbers: only a measurement can be no number, and other inputs have no limit.
 pub fn check(numbers: &[f64]) -> bool {
-    let measurement = |i: usize| (INPUTS_AT..=INPUTS_AT + FUEL).contains(&i);
-    numbers.iter().enumerate().all(|(i, value)| measurement(i) || value.abs() <= LARGEST)
+    let possible = |(i, value): (usize, &f64)| match i.checked_sub(INPUTS_AT) {
+        Some(input) if input <= FUEL => true,
+        Some(input) if input < INPUTS => value.is_finite(),
+        _ => value.abs() <= LARGEST,
+    };
+    numbers.iter().enumerate().all(possible)
         && numbers[0] >= numbers[1]
         && numbers[2] >= 0.0
         && numbers[COUNTS_AT..INPUTS_AT].iter().all(|count| *count >= 0.0)

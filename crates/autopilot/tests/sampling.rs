@@ -129,6 +129,38 @@ fn a_measurement_that_is_none_is_survived_counted_and_told_once() {
     assert!(refused.to_string().contains("gamma_wanted = NaN is refused"), "{refused}");
 }
 
+/// Without measurements the model alone carries an estimate on that no command can stop.
+#[test]
+fn a_glitch_before_measurements_end_is_forgotten_once_they_are_back() {
+    let mut pilot = built_in(&[("V_level", 2390.0)]);
+    set(&mut pilot, &[("V", 2390.0), ("gamma", 1e9)]);
+    pilot.do_step(0.0, PERIOD_S).unwrap();
+    set(&mut pilot, &[("V", f64::NAN)]);
+    pilot.do_step(PERIOD_S, 1e3).unwrap();
+    let bytes = pilot.state().unwrap().encode().unwrap();
+    pilot.deserialize(&bytes).expect("a state that was saved");
+    set(&mut pilot, &[("V", 2390.0), ("gamma", 0.0)]);
+    pilot.do_step(1e3 + PERIOD_S, 1e3).unwrap();
+    let [_, _, _, before] = outputs(&mut pilot);
+    pilot.do_step(2e3 + PERIOD_S, 100.0).unwrap();
+    let [_, _, missed, after] = outputs(&mut pilot);
+    assert_eq!((missed, after), (1e5, before), "no command is at its limit any more");
+}
+
+#[test]
+fn whatever_is_wanted_a_state_that_was_saved_can_be_restored() {
+    for wanted in [1e31, 1e300, f64::MAX] {
+        let mut pilot = built_in(&[]);
+        set(&mut pilot, &[("V", 2390.0), ("V_change", -wanted), ("gamma_wanted", wanted)]);
+        pilot.set_input_derivatives(&[reference("V_change")], &[1], &[1e30]).unwrap();
+        pilot.do_step(0.0, 1e3).unwrap();
+        let bytes = pilot.state().unwrap().encode().unwrap();
+        let state = pilot.deserialize(&bytes).expect("a state that was saved");
+        pilot.set_state(&state).unwrap();
+        assert_eq!(pilot.state().unwrap().encode().unwrap(), bytes);
+    }
+}
+
 #[test]
 fn gains_follow_the_measured_fuel_and_meet_those_of_the_fuel_fraction() {
     let level = |pilot: &mut Instance<Autopilot>| {
