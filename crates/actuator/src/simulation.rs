@@ -38,6 +38,8 @@ impl Running {
 /// Numbers of a state besides the changes: time, input, its slope, position, rate, how many changes.
 const NUMBERS: usize = 6;
 const NUMBERS_OF_CHANGE: usize = 3;
+/// A command that moves as fast and for as long as is taken stays below this.
+const LARGEST_COMMAND: f64 = LARGEST * LARGEST * LARGEST;
 
 impl Simulation for Running {
     type Sample = Motion;
@@ -62,9 +64,10 @@ impl Simulation for Running {
             numbers.extend(std::iter::repeat_n(0.0, gap * NUMBERS_OF_CHANGE));
         },
         check: |numbers| {
-            let [time, _, slope, position, rate, count] = numbers[..NUMBERS] else { return false };
+            let [time, u, slope, position, rate, count] = numbers[..NUMBERS] else { return false };
             let kept = 1.0..=MOST as f64;
             if !(numbers.iter().all(|number| number.is_finite())
+                && u.abs() <= LARGEST_COMMAND
                 && slope.abs() <= LARGEST
                 && position.abs() <= LARGEST_POSITION
                 && rate.abs() <= LARGEST_POSITION
@@ -75,7 +78,10 @@ impl Simulation for Running {
             }
             let (changes, unused) = numbers[NUMBERS..].split_at(count as usize * NUMBERS_OF_CHANGE);
             let times = || changes.iter().step_by(NUMBERS_OF_CHANGE).chain([&time]);
-            times().is_sorted() && unused.iter().all(|&number| number == 0.0)
+            let ramps = changes.chunks_exact(NUMBERS_OF_CHANGE).flat_map(|change| &change[1..]);
+            times().is_sorted()
+                && ramps.into_iter().all(|number| number.abs() <= LARGEST_COMMAND)
+                && unused.iter().all(|&number| number == 0.0)
         },
         load: |running, numbers| {
             let Actuator { position_min, position_max, rate_limit, .. } = running.actuator;

@@ -120,6 +120,8 @@ impl Running {
 
 /// Numbers of a state.
 const NUMBERS: usize = 10;
+/// An input that moves as fast and for as long as is taken, and what is made of it, stays below this.
+const LARGEST_VALUE: f64 = LARGEST * LARGEST * LARGEST;
 
 impl Simulation for Running {
     type Sample = f64;
@@ -143,7 +145,8 @@ impl Simulation for Running {
             let [start, time, _, slope, taken, _, lagged, _, stuck, _] = *numbers else {
                 return false;
             };
-            numbers.iter().all(|number| number.is_finite())
+            [start, time].iter().all(|time| time.is_finite())
+                && numbers[2..].iter().all(|number| number.abs() <= LARGEST_VALUE)
                 && start <= time
                 && slope.abs() <= LARGEST
                 && (-1.0..=MOST_PERIODS).contains(&taken)

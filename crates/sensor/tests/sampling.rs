@@ -264,6 +264,7 @@ fn no_number_of_a_state_may_be_made_up() {
     let bytes = sensor.state().unwrap().encode().unwrap();
     let taken = |number, value| sensor.deserialize(&forged(&bytes, number, value)).is_ok();
     assert!((0..10).all(|number| !taken(number, f64::NAN) && !taken(number, f64::INFINITY)));
+    assert!([2, 5, 7, 9].iter().all(|&number| taken(number, 1e60) && !taken(number, 1e91)));
     for (number, value) in [(0, 0.2), (3, 1e31), (4, -2.0), (4, 0.5), (4, 1e16), (6, 2.0), (8, 0.5)]
     {
         assert!(!taken(number, value), "{number} {value}");
