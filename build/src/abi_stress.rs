@@ -30,6 +30,13 @@ pub fn fuzz() -> Result<()> {
     check(
         tests("abi")
             .args(["--release", "--", "--nocapture", "random_calls::"])
+            .env(SEQUENCES_VARIABLE, &wanted),
+    )?;
+    // Those of the parts.
+    check(
+        cargo()
+            .args(["test", "--quiet", "--workspace", "--test", "calls"])
+            .args(["--release", "--", "--nocapture"])
             .env(SEQUENCES_VARIABLE, wanted),
     )?;
     check(tests("abi_host").args(["--release", "--", "--nocapture"]))
