@@ -26,8 +26,8 @@ and drag are normal to and along the velocity through it. The gust is uniform al
 </ul>
 <p>Between communication points the inputs are constant, or follow the derivatives (orders 1 to 3) that
 the master sets for the step. The states are integrated by an exponential method, which advances the
-decoupled oscillators exactly, or, while inputs vary within the step, by an explicit Runge-Kutta method of
-order 8. Both control their error and end exactly on the communication point, so a communication step
+decoupled oscillators exactly. It controls its error and ends exactly on the communication point and where a
+moving input meets its limit, so a communication step
 may be of any length. Communication points that differ by less than a millionth of the step, or by rounding to
 nine decimals, are the same instant.</p>
 <p>In Model Exchange the master integrates. The third flexible mode, 108 rad/s with little damping, limits
