@@ -12,7 +12,7 @@ use variables::Described;
 const STYLE: &str = "\
 body{font:16px/1.5 sans-serif;color:#1a1a1a;background:#fff;max-width:60em;margin:2em auto;padding:0 1em;\
 overflow-wrap:break-word}img{max-width:100%}a{padding:.3em 0;color:#0054a6}\
-.figure{display:block;overflow-x:auto}.figure svg{min-width:560px}\
+pre{overflow-x:auto}.figure{display:block;overflow-x:auto}.figure svg{min-width:560px}.figure math{min-width:max-content}\
 .table{overflow-x:auto}table{border-collapse:collapse;font-size:14px}\
 th,td{border:1px solid #bbb;padding:.2em .5em;text-align:left;vertical-align:top}th{background:#eee}\
 td.n{text-align:right}td:last-child{min-width:18em}\
@@ -73,17 +73,17 @@ pub fn html(content: &Content, standard: Standard, machines: &[String]) -> Resul
     let page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\
-         <title>{identifier} {version}</title><style>{STYLE}</style></head>\n<body>\n\
+         <title>{identifier} {version}</title><style>{STYLE}</style></head>\n<body>\n<main>\n\
          <h1>{identifier} {version}</h1>\n\
          <p>{about} FMI {fmi} for {interfaces}. Model {guid}.</p>\n\
          {summary}\n{machines}\n\
          {sections}\n\
-         <h2>Variables</h2>\n\
-         <div class=\"table\"><table>\n<thead><tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th>\
+         <h2 id=\"variables\">Variables</h2>\n\
+         <div class=\"table\" tabindex=\"0\"><table>\n<thead><tr><th>ref.</th><th>name</th><th>kind</th><th>unit</th>\
          <th>start</th><th>range</th><th>meaning</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n\
          {closing}\
          <h2>Licences</h2>\n<p>{license}. The texts, and those of the libraries inside the binary, are in \
-         <a href=\"licenses/\">licenses</a>.</p>\n</body>\n</html>\n",
+         <a href=\"licenses/\">licenses</a>.</p>\n</main>\n</body>\n</html>\n",
     );
     Ok(match standard {
         Standard::Fmi2 => page,

@@ -5,7 +5,7 @@ use crate::flight_page;
 use crate::models::{VEHICLE, parts::AUTOPILOT};
 use crate::node;
 use crate::package::{self, Targets};
-use crate::workspace::{MAX_TEXT_BYTES, check, read, root, shown, target, works, write};
+use crate::workspace::{MAX_TEXT_BYTES, cargo, check, read, root, shown, target, works, write};
 use anyhow::{Context, Result, bail};
 use std::env;
 use std::fs;
@@ -43,7 +43,7 @@ pub fn run(options: &Site) -> Result<()> {
 /// Builds the page from the FMU of FMI 2.0 and that of FMI 3.0 beside it. The same FMUs give the same bytes.
 fn build(stage: &Path, fmu: &Path, output: &Path) -> Result<PathBuf> {
     let mut node = node(stage, "build.mjs", &unpacked(fmu)?, output)?;
-    node.arg("--flight").arg(flight_page());
+    node.arg("--flight").arg(flight_page()).arg("--api").arg(api()?);
     let report = target().join("report/report.html");
     match report.exists() {
         true => drop(node.arg("--report").arg(report)),
@@ -51,6 +51,14 @@ fn build(stage: &Path, fmu: &Path, output: &Path) -> Result<PathBuf> {
     }
     check(&mut node)?;
     Ok(output.join("index.html"))
+}
+
+/// Documentation of the crate that turns a model into FMUs, in a folder without that of other crates.
+fn api() -> Result<PathBuf> {
+    let folder = target().join("rustdoc");
+    let document = ["doc", "--package", "fmi-model", "--no-deps", "--all-features", "--quiet"];
+    check(cargo().args(document).arg("--target-dir").arg(&folder))?;
+    Ok(folder.join("doc"))
 }
 
 /// The page of a flight, as the sources give it.

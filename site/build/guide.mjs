@@ -4,11 +4,12 @@ import { Marked } from 'marked';
 import { gfmHeadingId } from 'marked-gfm-heading-id';
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, posix } from 'node:path';
+import { links } from './navigation.mjs';
 
 const FIRST = ['README.md', 'crates/fmi/README.md'];
 
-/** Writes the pages and their images below `output`; `style` is that of the site. */
-export function writeGuide(root, output, style) {
+/** Writes the pages and their images below `output`; `style` is that of the site, `parts` are its optional pages. */
+export function writeGuide(root, output, style, parts) {
   const pages = new Map();
   const images = new Set();
   const waiting = [...FIRST];
@@ -20,7 +21,7 @@ export function writeGuide(root, output, style) {
   }
   for (const [file, { html, title }] of pages) {
     const up = '../'.repeat(file.split('/').length);
-    write(join(output, asPage(file)), framed(html, title, up, style));
+    write(join(output, asPage(file)), framed(html, title, links(parts, up), style));
   }
   for (const file of images) write(join(output, file), readFileSync(join(root, file)));
 }
@@ -49,7 +50,9 @@ function rendered(root, file, images) {
       },
     },
   });
-  return { html: marked.parse(readFileSync(join(root, file), 'utf8')), title, leads };
+  const html = marked.parse(readFileSync(join(root, file), 'utf8'));
+  // What scrolls can be reached with the keyboard; a corner of a table is no heading.
+  return { html: html.replaceAll('<pre>', '<pre tabindex="0">').replace(/<th( [^>]*)?><\/th>/g, '<td></td>'), title, leads };
 }
 
 const local = (href) => !/^[a-z]+:/.test(href);
@@ -62,7 +65,7 @@ function folderPage(root, path) {
   return existsSync(join(root, page)) ? page : path;
 }
 
-function framed(html, title, up, style) {
+function framed(html, title, navigation, style) {
   return `<!doctype html>
 <html lang="en">
 <head>
@@ -73,7 +76,7 @@ function framed(html, title, up, style) {
 <style>${style}</style>
 </head>
 <body class="guide">
-<header><nav><a href="${up}index.html">The vehicle in flight</a> <a href="${up}guide/README.html">Getting started</a> <a href="${up}documentation/index.html">Equations, variables, validity</a> <a href="${up}guide/crates/fmi/README.html">FMUs in Rust</a></nav></header>
+<header><nav aria-label="Site">${navigation}</nav></header>
 <main>
 ${html}</main>
 </body>

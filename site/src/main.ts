@@ -13,6 +13,7 @@ async function start(): Promise<void> {
   const [vehicle, pilot] = await Promise.all([Component.load(ahv), autopilot && Component.load(autopilot)]);
   element('flight', HTMLElement).hidden = false;
   element('pictures', HTMLElement).hidden = true;
+  document.querySelector('main')!.classList.add('flying');
   new App({ vehicle, autopilot: pilot, data, published, manoeuvres }).run();
 }
 

@@ -37,6 +37,18 @@ export class Chromium {
     }
   }
 
+  /** A page of the documentation: its width in a window of a width, and what axe-core finds fault with. */
+  async read(file: string, options: BrowserContextOptions & { viewport: { width: number; height: number } }): Promise<{ width: number; faults: string[] }> {
+    const context = await this.browser.newContext(options);
+    try {
+      const page = await context.newPage();
+      await page.goto(`file://${file}`);
+      return { width: await page.evaluate(() => document.documentElement.scrollWidth), faults: await accessible(page) };
+    } finally {
+      await context.close();
+    }
+  }
+
   async close(): Promise<void> {
     await this.browser.close();
   }
@@ -72,7 +84,9 @@ export async function accessible(page: Page): Promise<string[]> {
   });
 }
 
-/** Moves a slider as a pointer does. */
+/** Moves a slider as a pointer does, or selects from a list. */
 export async function slide(page: Page, id: string, value: number): Promise<void> {
-  await page.locator(`#${id}`).fill(String(value));
+  const control = page.locator(`#${id}`);
+  if (await control.evaluate((element) => element instanceof HTMLSelectElement)) await control.selectOption(String(value));
+  else await control.fill(String(value));
 }

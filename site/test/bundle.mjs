@@ -6,7 +6,7 @@ import { modules } from '../build/modules.mjs';
 
 const { fmus, root, output } = readArguments();
 await build({
-  entryPoints: ['engine', 'flight', 'links', 'page', 'pilot', 'roots', 'shock'].map((name) => `test/${name}.test.ts`),
+  entryPoints: ['documents', 'engine', 'flight', 'links', 'page', 'pilot', 'roots', 'shock', 'thinned'].map((name) => `test/${name}.test.ts`),
   outdir: output,
   outExtension: { '.js': '.mjs' },
   bundle: true,

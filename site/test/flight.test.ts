@@ -33,6 +33,12 @@ test('the page of a flight has its numbers, and shows them at the time of the sl
     assert.ok(Math.abs(shown - (row[names.indexOf('q')]! * 180) / Math.PI) < 1e-3);
     await page.keyboard.press('.');
     assert.equal(await page.locator('#time').inputValue(), '1.21');
+    // The elevator jumps at 0.5 s, where there are two rows.
+    await page.locator('#time').fill('0.51');
+    for (const time of ['0.5', '0.49']) {
+      await page.keyboard.press(',');
+      assert.equal(await page.locator('#time').inputValue(), time);
+    }
     await page.locator('#speed').selectOption('4');
     await page.getByRole('button', { name: 'Play' }).click();
     await page.locator('#readout dd').first().filter({ hasText: /^2$/ }).waitFor();

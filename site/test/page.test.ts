@@ -95,28 +95,84 @@ test('the keyboard alone flies the vehicle', async () => {
   });
 });
 
-test('a vehicle without a trim shows the message of the FMU, and the last one flies on', async () => {
+test('a vehicle without a trim shows the message of the FMU where one is, and the last one flies on', async () => {
   await chromium.visit(page(''), async (page) => {
+    await page.locator('#mach0').click();
     await page.locator('#mach0').fill('2');
     await page.locator('#mach0').press('Enter');
     await page.locator('#message').filter({ hasText: 'no trim at mach0 = 2' }).waitFor();
+    for (const id of ['message', 'mach0']) {
+      const { y, height } = (await page.locator(`#${id}`).boundingBox())!;
+      assert.ok(y >= 0 && y + height <= 800, `${id} is in view`);
+    }
     await page.getByRole('button', { name: 'Step', exact: true }).click();
     const { names, rows } = table(await saved(page));
     assert.equal(Math.round(rows.at(-1)![names.indexOf('mach')]!), 8);
     assert.equal(rows.at(-1)![0], 0.002);
-  });
+  }, { viewport: { width: 400, height: 800 } });
 });
 
 test('a link holds all settings', async () => {
-  const link = '#configuration=2&aero=2&fuel_fraction=0.4&slosh_damping=0.02&step=0.005&speed=2&magnified=120';
+  const link = '#configuration=2&aero=2&fuel_fraction=0.4&slosh_damping=0.02&step=0.005&speed=2&magnified=120&map=1&outputs=4097';
   await chromium.visit(page(link), async (page) => {
     await page.getByRole('button', { name: 'Copy link' }).click();
     assert.equal(new URL(page.url()).hash, link);
-    assert.equal(await page.locator('#configuration').inputValue(), '2');
-    assert.equal(await page.locator('#step').inputValue(), '0.005');
+    for (const [id, value] of [['configuration', '2'], ['step', '0.005'], ['map', '1'], ['magnified', '120']] as const) {
+      assert.equal(await page.locator(`#${id}`).inputValue(), value);
+    }
+    const shown = page.locator('.strip:visible .u-title');
+    assert.deepEqual(await shown.allTextContents(), ['Angles, deg', 'Moment, N']);
+    // What another link does not have is as at the start.
+    await page.evaluate(() => void (location.hash = '#aero=2'));
+    await shown.nth(7).waitFor();
+    assert.equal(await page.locator('#configuration').inputValue(), '3');
+    assert.equal(await page.locator('#map').inputValue(), '0');
   });
-  await chromium.visit(page('#fuel_fraction=much&colour=1'), async (page) => {
-    await page.locator('#message').filter({ hasText: 'fuel_fraction=much, colour=1' }).waitFor();
+  await chromium.visit(page('#fuel_fraction=much&colour=1&manoeuvre=1.5&delta_e=1'), async (page) => {
+    await page.locator('#message').filter({ hasText: 'fuel_fraction=much, colour=1, manoeuvre=1.5, delta_e=1' }).waitFor();
+  });
+});
+
+test('a link holds controls, commands and releases, and flies with them', async () => {
+  let link = '';
+  await chromium.visit(page('#step=0.01'), async (page) => {
+    await slide(page, 'delta_e', 0.13);
+    await slide(page, 'phi', -0.3);
+    await slide(page, 'map', 2);
+    await page.locator('.choice summary').click();
+    await page.getByRole('checkbox', { name: 'Flexible modes' }).click();
+    await page.getByRole('button', { name: 'Copy link' }).click();
+    link = new URL(page.url()).hash;
+  });
+  await chromium.visit(page(link), async (page) => {
+    assert.equal(await page.locator('#delta_e').inputValue(), '0.13');
+    assert.equal(await page.locator('#phi').inputValue(), '-0.3');
+    assert.equal(await page.locator('#map').inputValue(), '2');
+    assert.equal(await page.locator('.strip:visible').count(), 7);
+    await page.keyboard.press('.');
+    const { names, rows } = table(await saved(page));
+    assert.equal(rows.at(-1)![names.indexOf('delta_e')], 0.13 / (180 / Math.PI));
+    assert.equal(rows.at(-1)![names.indexOf('phi')], -0.3);
+  });
+  await chromium.visit(page('#manoeuvre=3&step=0.01'), async (page) => {
+    await page.keyboard.press('.');
+    assert.match((await page.locator('#command').textContent())!, /--set slosh1_offset=0\.05 --set slosh2_offset=0\.05/);
+  });
+  if (!autopilot) return;
+  await chromium.visit(page('#autopilot=1&gamma_wanted=0.0087&V_change=-30'), async (page) => {
+    assert.equal(await page.locator('#gamma_wanted').inputValue(), '0.5');
+    assert.equal(await page.locator('#V_change').inputValue(), '-30');
+  });
+});
+
+test('a strip tells the values under the pointer', async () => {
+  await chromium.visit(page('#manoeuvre=1&step=0.01'), async (page) => {
+    for (let step = 0; step < 100; step++) await page.keyboard.press('.');
+    const strip = page.locator('.strip', { hasText: 'Elevator, deg' });
+    await strip.scrollIntoViewIfNeeded();
+    await strip.locator('.u-over').hover({ position: { x: 5, y: 40 } });
+    const value = strip.locator('.u-value').last();
+    await value.filter({ hasText: /^15\.53/ }).waitFor();
   });
 });
 

@@ -4,18 +4,20 @@ import type { Shapes } from '../flight/shapes';
 import type { Outline, Point } from './outline';
 import { View, type Pose } from './pose';
 import { shockAngle } from './shock';
-import type { Theme } from './theme';
+import { textSize, type Theme } from './theme';
 
 /** World in the picture, m: the vehicle with room for its shocks. */
 const WIDTH_M = 41;
 const HEIGHT_M = 17;
-/** The mass centre in the picture, as a part of it. */
-const CENTRE: Point = [0.46, 0.5];
+/** Before the nose, m. */
+const AHEAD_M = 1;
 /** A full tank as drawn: the surface stays visible. */
 const FULL = 0.85;
 const SHOCK_M = 60;
 const PLUME_M = 16;
 const BAR_M = 5;
+/** Most pixels in a row of the picture: beyond them only the work grows. */
+const MOST_COLUMNS = 2560;
 
 export interface Look {
   shapes: Shapes | undefined;
@@ -28,15 +30,19 @@ export interface Look {
 }
 
 export function draw(canvas: HTMLCanvasElement, outline: Outline, angles: { lower: number; upper: number }, pose: Pose, look: Look, theme: Theme): void {
-  const pixel = window.devicePixelRatio || 1;
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+  const pixel = Math.min(window.devicePixelRatio || 1, MOST_COLUMNS / width);
   const [columns, rows] = [Math.round(width * pixel), Math.round(height * pixel)];
   if (canvas.width !== columns || canvas.height !== rows) Object.assign(canvas, { width: columns, height: rows });
-  const context = canvas.getContext('2d')!;
+  // If each pixel is one of the screen, none is mixed from its neighbours, which costs more than the drawing.
+  canvas.style.imageRendering = pixel === window.devicePixelRatio ? 'pixelated' : 'auto';
+  // What is opaque hides what is below: the browser need not mix them.
+  const context = canvas.getContext('2d', { alpha: false })!;
   context.setTransform(pixel, 0, 0, pixel, 0, 0);
-  context.clearRect(0, 0, width, height);
+  context.fillStyle = theme.panel;
+  context.fillRect(0, 0, width, height);
   const scale = Math.min(width / WIDTH_M, height / HEIGHT_M);
-  const centre: Point = [width * CENTRE[0], height * CENTRE[1]];
+  const centre: Point = [(AHEAD_M + look.massCentre) * scale, height / 2];
   const view = new View(pose, look.shapes, look.magnified, look.massCentre, centre, scale);
   const pen = new Pen(context, theme);
   horizon(pen, width, centre);
@@ -72,7 +78,7 @@ class Pen {
   }
 
   text(text: string, [x, y]: Point, align: CanvasTextAlign): void {
-    this.context.font = '12px system-ui, sans-serif';
+    this.context.font = `${textSize(0.75)}px system-ui, sans-serif`;
     this.context.textAlign = align;
     this.context.fillStyle = this.theme.muted;
     this.context.fillText(text, x, y);

@@ -13,6 +13,11 @@ export function theme(): Theme {
   };
 }
 
+/** Size of a text, px, as a part of that of the page, which grows with the screen. */
+export function textSize(part: number): number {
+  return Math.round(part * parseFloat(getComputedStyle(document.documentElement).fontSize));
+}
+
 /** Calls back when the colours change between light and dark. */
 export function onThemeChange(changed: () => void): void {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', changed);

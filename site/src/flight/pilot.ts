@@ -3,7 +3,6 @@
 import type { Component } from '../fmu/component';
 import { Instance } from '../fmu/instance';
 
-const MEASURED = ['V', 'gamma', 'q', 'fuel_mass'] as const;
 const COMMANDS = ['delta_e', 'phi'] as const;
 
 /** What the autopilot is asked for. */
@@ -20,13 +19,12 @@ const RATES: Wanted = { V_change: 0.5, gamma_wanted: 0.0175 / 20 };
 export class Pilot {
   private followed: Wanted = { V_change: 0, gamma_wanted: 0 };
   private readonly fmu: Instance;
-  private readonly measured: Uint32Array;
   private readonly commanded: Uint32Array;
 
   /** For a vehicle that has just been initialised, with its level flight. */
   constructor(
     component: Component,
-    private readonly vehicle: Instance,
+    vehicle: Instance,
     fuelFraction: number,
   ) {
     this.fmu = Instance.start(component, {
@@ -35,19 +33,17 @@ export class Pilot {
       delta_e_trim: vehicle.get('delta_e_trim'),
       phi_trim: vehicle.get('phi_trim'),
     });
-    this.measured = vehicle.references(MEASURED);
     this.commanded = this.fmu.references(COMMANDS);
   }
 
-  /** Reads the vehicle, then steps to a time; moves towards what is wanted. */
-  stepTo(time: number, wanted: Wanted): void {
+  /** From outputs of the vehicle, steps to a time; moves towards what is wanted. */
+  stepTo(time: number, output: (name: string) => number, wanted: Wanted): void {
     const most = time - this.fmu.time;
     for (const name of ['V_change', 'gamma_wanted'] as const) {
       const change = wanted[name] - this.followed[name];
       this.followed[name] += Math.max(-RATES[name] * most, Math.min(RATES[name] * most, change));
     }
-    const [V, gamma, q, fuel_mass] = this.vehicle.read(this.measured) as unknown as [number, number, number, number];
-    this.fmu.set({ V, gamma, q, fuel_mass, ...this.followed });
+    this.fmu.set({ V: output('V'), gamma: output('gamma'), q: output('q'), fuel_mass: output('fuel_mass'), ...this.followed });
     this.fmu.stepTo(time);
   }
 

@@ -68,7 +68,7 @@ export class Simulator {
     const next = instant(this.steps + 1, this.experiment.step);
     try {
       this.apply();
-      this.pilot?.stepTo(next, this.wanted);
+      this.pilot?.stepTo(next, (name) => this.history.last(name), this.wanted);
       const { ended } = this.vehicle.stepTo(next);
       this.steps += 1;
       this.ended = ended;

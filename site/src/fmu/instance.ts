@@ -50,22 +50,19 @@ export class Instance {
     return this.now;
   }
 
-  /** Sets variables, in SI. */
+  /** Sets variables, in SI: all reals in one call, because a call costs more than what it does. */
   set(values: Values): void {
+    const [references, reals] = [new Array<number>(), new Array<number>()];
     for (const [name, value] of Object.entries(values)) {
       const { reference, type } = this.variable(name);
-      const references = Uint32Array.of(reference);
-      this.done(() => {
-        switch (type) {
-          case 'real':
-            return this.fmu.setFloat64(references, Float64Array.of(value));
-          case 'boolean':
-            return this.fmu.setBoolean(references, [value !== 0]);
-          default:
-            return this.fmu.setInt64(references, BigInt64Array.of(BigInt(value)));
-        }
-      });
+      const one = Uint32Array.of(reference);
+      if (type === 'real') {
+        references.push(reference);
+        reals.push(value);
+      } else if (type === 'boolean') this.done(() => this.fmu.setBoolean(one, [value !== 0]));
+      else this.done(() => this.fmu.setInt64(one, BigInt64Array.of(BigInt(value))));
     }
+    if (reals.length > 0) this.done(() => this.fmu.setFloat64(Uint32Array.from(references), Float64Array.from(reals)));
   }
 
   /** References for `read`, which is called often. */

@@ -1,35 +1,26 @@
-// The page: settings, the flight, and what shows it.
+// The page: settings, and the flight that follows from them.
 
 import type { VehicleData, Published } from '../data';
-import { outline, type Outline } from '../drawing/outline';
-import { pose, type Pose } from '../drawing/pose';
-import { draw, type Look } from '../drawing/scene';
-import { onThemeChange, theme, type Theme } from '../drawing/theme';
 import { parse, type Manoeuvre } from '../flight/manoeuvre';
 import { sample, type Shapes } from '../flight/shapes';
 import { Simulator } from '../flight/simulator';
 import type { Component } from '../fmu/component';
+import type { Values } from '../fmu/variables';
 import { roots } from '../linear/roots';
 import { Clock } from './clock';
 import { command, FILE } from './command';
-import { connect, LIQUID, show } from './controls';
+import { connect, show } from './controls';
+import { Display } from './display';
 import { button, download, element, input, shown } from './element';
 import { onKeys } from './keyboard';
 import { PoleMap } from './map';
-import { Readout } from './readout';
 import { Settings } from './settings';
-import { Stick } from './stick';
-import { Strips } from './strips';
+import { COMMANDS, Stick } from './stick';
 
 /** Stations at which the shapes are known; the highest mode has three nodes. */
 const STATIONS = 21;
-/** Time between frames for those who want little motion, ms. */
-const CALM_MS = 500;
-/** Initial states for the release tests, m. */
-const RELEASED = {
-  slosh: { slosh1_offset: 0.05, slosh2_offset: 0.05 },
-  bend: { eta1_offset: 0.05 },
-};
+/** Initial states of the release tests, m: the manoeuvres after those of input files. */
+const RELEASED: Values[] = [{ slosh1_offset: 0.05, slosh2_offset: 0.05 }, { eta1_offset: 0.05 }];
 
 export interface Parts {
   vehicle: Component;
@@ -42,32 +33,20 @@ export interface Parts {
 
 export class App {
   private readonly settings: Settings;
-  private readonly outline: Outline;
   private readonly manoeuvres: Manoeuvre[];
   private readonly clock = new Clock();
   private readonly stick = new Stick(() => this.steer());
-  private readonly readout: Readout;
-  private readonly strips: Strips;
+  private readonly display: Display;
   private readonly map: PoleMap;
-  private readonly canvas = element('scene', HTMLCanvasElement);
   private simulator: Simulator;
-  private shapes: Shapes | undefined;
   private sampling: Generator<undefined, Shapes> | undefined;
   private sampled = '';
-  private massCentre = 0;
-  private fullTanks = 1;
-  private theme: Theme = theme();
-  private stale = true;
-  private drawn = 0;
-  private readonly calm = matchMedia('(prefers-reduced-motion: reduce)');
 
   constructor(private readonly parts: Parts) {
     const { variables } = parts.vehicle;
     this.settings = new Settings(variables);
-    this.outline = outline(parts.data);
     this.manoeuvres = parts.manoeuvres.map(parse);
-    this.readout = new Readout(variables);
-    this.strips = new Strips(variables, this.theme);
+    this.display = new Display(parts.data, variables, this.settings);
     this.map = new PoleMap(parts.published);
     this.simulator = this.start();
     this.adopt();
@@ -75,7 +54,7 @@ export class App {
 
   /** Connects the controls, takes the settings of the link, and begins to draw. */
   run(): void {
-    connect(this.settings, this.parts.vehicle.variables, { vehicle: () => this.restart(), view: () => this.look() });
+    connect(this.settings, this.parts.vehicle.variables, { vehicle: () => this.restart(), view: () => this.display.look(), map: () => this.map.look(this.settings.get('map')) });
     button('play').addEventListener('click', () => this.play(!this.clock.playing));
     button('single').addEventListener('click', () => this.single());
     button('restart').addEventListener('click', () => this.restart());
@@ -84,19 +63,10 @@ export class App {
     for (const one of document.querySelectorAll<HTMLButtonElement>('[data-manoeuvre]')) {
       one.addEventListener('click', () => this.fly(Number(one.dataset['manoeuvre'])));
     }
-    for (const one of document.querySelectorAll<HTMLButtonElement>('[data-release]')) {
-      one.addEventListener('click', () => this.release(one.dataset['release'] as keyof typeof RELEASED));
-    }
     for (const id of ['autopilot-row', 'autopilot-hint']) element(id, HTMLElement).hidden = !this.parts.autopilot;
     input('autopilot').addEventListener('change', () => this.engage(input('autopilot').checked));
-    const keys = { ' ': () => this.play(!this.clock.playing), '.': () => this.single(), r: () => this.restart(), '0': () => this.centre(), '1': () => this.fly(1), '2': () => this.fly(2), '3': () => this.release('slosh'), '4': () => this.release('bend'), a: () => this.engage(!this.stick.autopilot) };
+    const keys = { ' ': () => this.play(!this.clock.playing), '.': () => this.single(), r: () => this.restart(), '0': () => this.centre(), '1': () => this.fly(1), '2': () => this.fly(2), '3': () => this.fly(3), '4': () => this.fly(4), a: () => this.engage(!this.stick.autopilot) };
     onKeys(keys, (key) => this.stick.key(key));
-    onThemeChange(() => {
-      this.theme = theme();
-      this.strips.recolour(this.theme);
-      this.look();
-    });
-    new ResizeObserver(() => this.look()).observe(this.canvas);
     window.addEventListener('hashchange', () => this.open());
     this.open();
     requestAnimationFrame((now) => this.frame(now));
@@ -106,16 +76,17 @@ export class App {
   private open(): void {
     const refused = this.settings.read(location.hash.slice(1));
     show(this.settings);
-    const autopilot = this.settings.get('autopilot') === 1 && this.parts.autopilot !== undefined;
-    input('autopilot').checked = autopilot;
-    this.stick.use(autopilot);
+    this.map.look(this.settings.get('map'));
+    this.display.choose();
+    this.use(this.settings.get('autopilot') === 1 && this.parts.autopilot !== undefined);
+    for (const name of COMMANDS) this.stick.show(name, this.settings.get(name));
     this.restart();
     if (refused.length > 0) this.say(`The link has settings that this page does not know: ${refused.join(', ')}`);
   }
 
   private start(): Simulator {
     return Simulator.start(this.parts.vehicle, this.parts.autopilot, {
-      parameters: this.settings.parameters(),
+      parameters: { ...this.settings.parameters(), ...RELEASED[this.settings.get('manoeuvre') - 1 - this.manoeuvres.length] },
       step: this.settings.get('step'),
       autopilot: this.stick.autopilot,
     });
@@ -142,17 +113,17 @@ export class App {
   /** What follows from the parameters of a new flight. */
   private adopt(): void {
     const { vehicle } = this.simulator;
-    this.massCentre = vehicle.get('mass_centre');
+    this.display.massCentre = vehicle.get('mass_centre');
     const { derivatives } = this.parts.vehicle.fmu;
     const configuration = this.settings.get('configuration');
     this.map.show(roots(vehicle, derivatives, configuration), configuration);
     const parameters = this.settings.parameters();
     const key = JSON.stringify(parameters);
-    if (key !== this.sampled) this.sampling = sample(this.parts.vehicle, parameters, this.outline.length, STATIONS);
+    if (key !== this.sampled) this.sampling = sample(this.parts.vehicle, parameters, this.parts.data.geometry.length_m, STATIONS);
     this.sampled = key;
     const fuel = this.settings.get('fuel_fraction');
-    if (fuel > 0) this.fullTanks = vehicle.get('fuel_mass') / fuel;
-    this.look();
+    if (fuel > 0) this.display.fullTanks = vehicle.get('fuel_mass') / fuel;
+    this.display.look();
   }
 
   private play(playing: boolean): void {
@@ -160,39 +131,35 @@ export class App {
     this.clock.playing = playing;
     if (playing) this.clock.start(this.simulator);
     button('play').textContent = playing ? 'Pause' : 'Play';
-    this.look();
+    this.display.look();
   }
 
   private single(): void {
     this.play(false);
     if (this.simulator.flying) this.simulator.step();
     this.check();
-    this.look();
+    this.display.look();
   }
 
+  /** A manoeuvre of an input file is flown by hand, a release also by the autopilot. */
   private fly(manoeuvre: number): void {
-    this.engage(false);
+    if (manoeuvre <= this.manoeuvres.length) this.engage(false);
     this.centre();
     this.settings.set('manoeuvre', manoeuvre);
     if (this.restart()) this.play(true);
   }
 
-  /** Flies from a disturbed start, once. */
-  private release(kind: keyof typeof RELEASED): void {
-    this.centre();
-    const offsets = Object.entries(RELEASED[kind]) as [keyof (typeof RELEASED)['slosh'], number][];
-    for (const [name, value] of offsets) this.settings.set(name, value);
-    if (this.restart()) this.play(true);
-    for (const [name] of offsets) this.settings.set(name, 0);
-  }
-
   private engage(autopilot: boolean): void {
     if (!this.parts.autopilot || autopilot === this.stick.autopilot) return;
-    this.stick.use(autopilot);
-    input('autopilot').checked = autopilot;
+    this.use(autopilot);
     this.settings.set('autopilot', Number(autopilot));
     this.centre();
     this.restart();
+  }
+
+  private use(autopilot: boolean): void {
+    this.stick.use(autopilot);
+    input('autopilot').checked = autopilot;
   }
 
   private centre(): void {
@@ -202,35 +169,28 @@ export class App {
 
   /** By hand: a manoeuvre that is being flown is given up. */
   private steer(): void {
+    for (const name of COMMANDS) this.settings.set(name, this.stick.value(name));
     this.settings.set('manoeuvre', 0);
     this.simulator.manoeuvre = undefined;
     this.command();
   }
 
   private command(): void {
-    this.simulator.controls = { delta_e: this.stick.value('delta_e'), phi: this.stick.value('phi') };
-    this.simulator.wanted = { V_change: this.stick.value('V_change'), gamma_wanted: this.stick.value('gamma_wanted') };
-  }
-
-  private look(): void {
-    this.stale = true;
+    const held = (name: (typeof COMMANDS)[number]): number => this.settings.get(name);
+    this.simulator.controls = { delta_e: held('delta_e'), phi: held('phi') };
+    this.simulator.wanted = { V_change: held('V_change'), gamma_wanted: held('gamma_wanted') };
   }
 
   private frame(now: number): void {
     const flown = this.clock.fly(this.simulator, now, this.settings.get('speed'));
     if (flown) this.check();
-    if (this.sampling) {
-      const asked = this.sampling.next();
-      if (asked.done) Object.assign(this, { shapes: asked.value, sampling: undefined, stale: true });
+    const asked = this.sampling?.next();
+    if (asked?.done) {
+      this.display.shapes = asked.value;
+      this.sampling = undefined;
+      this.display.look();
     }
-    const drawn = flown && (!this.calm.matches || now - this.drawn > CALM_MS);
-    if (drawn || this.stale) {
-      this.drawn = now;
-      this.show();
-    }
-    if (drawn) this.strips.showNext(this.simulator.history, this.settings.get('window'));
-    if (this.stale) this.strips.showAll(this.simulator.history, this.settings.get('window'));
-    this.stale = false;
+    if (this.display.frame(this.simulator, now, flown)) this.tell();
     requestAnimationFrame((next) => this.frame(next));
   }
 
@@ -241,18 +201,12 @@ export class App {
     this.say(this.simulator.ended ?? 'The history is full: save it, or restart.');
   }
 
-  private show(): void {
-    const { history } = this.simulator;
-    const now: Pose = pose((name) => history.last(name), history.last('fuel_mass') / this.fullTanks);
-    const look: Look = { shapes: this.shapes, magnified: this.settings.get('magnified'), liquid: this.settings.get('magnified') * LIQUID, massCentre: this.massCentre };
-    const { lower_angle_rad: lower, upper_angle_rad: upper } = this.parts.data.outline;
-    draw(this.canvas, this.outline, { lower, upper }, now, look, this.theme);
-    this.readout.show(history);
+  /** What the page says of the flight beside its numbers. */
+  private tell(): void {
     for (const name of ['delta_e', 'phi'] as const) {
       if (!this.stick.autopilot) this.stick.show(name, this.simulator.controls[name]!);
     }
-    const rate = this.clock.playing ? `${shown(this.clock.rate(), 2)} frames/s` : '';
-    element('rate', HTMLElement).textContent = rate;
+    element('rate', HTMLElement).textContent = this.clock.playing ? `${shown(this.clock.rate(), 2)} frames/s` : '';
     if (!this.clock.playing) element('command', HTMLElement).textContent = command(this.simulator, this.parts.vehicle.variables);
   }
 

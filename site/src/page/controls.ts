@@ -6,7 +6,7 @@ import type { Setting, Settings } from './settings';
 
 /** Parameters with an element of their name; the vehicle is trimmed again when one changes. */
 const VEHICLE = ['configuration', 'aero', 'fuel_fraction', 'slosh_damping', 'slosh_frequency', 'mach0', 'altitude0'] as const;
-const SELECTED = ['configuration', 'aero', 'step', 'window'] as const;
+const SELECTED = ['configuration', 'aero', 'step', 'window', 'map'] as const;
 
 const TEXTS: Record<string, (value: number) => string> = {
   fuel_fraction: (value) => `${shown(100 * value)} %`,
@@ -24,6 +24,8 @@ export interface Changes {
   vehicle(): void;
   /** What the flight itself does not depend on. */
   view(): void;
+  /** The window of the pole-zero map. */
+  map(): void;
 }
 
 /** Fills the lists from the FMU, and connects all inputs with the settings. */
@@ -43,8 +45,9 @@ export function connect(settings: Settings, variables: ReadonlyMap<string, Varia
     const event = source instanceof HTMLInputElement && source.type === 'range' ? 'input' : 'change';
     source.addEventListener(event, () => changed(name, Number((source as HTMLInputElement).value || NaN), changes.vehicle));
   }
-  select('step').addEventListener('change', () => changed('step', Number(select('step').value), changes.vehicle));
-  select('window').addEventListener('change', () => changed('window', Number(select('window').value), changes.view));
+  for (const [name, happened] of [['step', changes.vehicle], ['window', changes.view], ['map', changes.map]] as const) {
+    select(name).addEventListener('change', () => changed(name, Number(select(name).value), happened));
+  }
   input('magnified').addEventListener('input', () => changed('magnified', input('magnified').valueAsNumber, changes.view));
   input('speed').addEventListener('input', () => changed('speed', 10 ** input('speed').valueAsNumber, changes.view));
   show(settings);

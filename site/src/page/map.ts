@@ -1,32 +1,36 @@
 // Pole-zero map of the trimmed vehicle, with the values that the paper prints.
 
 import type { Published } from '../data';
+import { textSize } from '../drawing/theme';
 import type { Root, Roots } from '../linear/roots';
 import { element, shown } from './element';
 
 const NAMES: Record<number, keyof Published['table2']> = { 1: 'rigid', 2: 'even', 3: 'slosh' };
 /** Windows of the map, rad/s. */
-const WINDOWS: Record<string, { re: [number, number]; im: [number, number] }> = {
-  all: { re: [-9, 9], im: [0, 125] },
-  slosh: { re: [-2, 0.5], im: [0, 30] },
-  slow: { re: [-0.002, 0.002], im: [0, 0.06] },
-};
-const MARGIN = { left: 52, right: 14, top: 12, bottom: 40 };
+const WINDOWS: { re: [number, number]; im: [number, number] }[] = [
+  { re: [-9, 9], im: [0, 125] },
+  { re: [-2, 0.5], im: [0, 30] },
+  { re: [-0.002, 0.002], im: [0, 0.06] },
+];
+/** Size of the text, as a part of that of the page. */
+const TEXT = 0.75;
+/** Left, right, top and bottom, in sizes of the text. */
+const MARGINS = [4.3, 1.2, 1, 3.4];
 /** Former roots that stay as a trail. */
-const MOST_FORMER = 3000;
+const MOST_FORMER = 1500;
 const SIZE = 5;
 
-type Kind = 'pole' | 'zero' | 'printed-pole' | 'printed-zero' | 'former';
+type Kind = 'pole' | 'zero' | 'printed-pole' | 'printed-zero';
 
 export class PoleMap {
-  private readonly svg = document.getElementById('map') as unknown as SVGSVGElement;
+  private readonly svg = document.getElementById('roots-map') as unknown as SVGSVGElement;
   private readonly table = element('roots', HTMLTableSectionElement);
   private roots: Roots = { poles: [], zeros: [] };
   private former: Root[] = [];
   private configuration = 3;
+  private window = 0;
 
   constructor(private readonly published: Published) {
-    element('map-window', HTMLSelectElement).addEventListener('change', () => this.draw());
     element('map-clear', HTMLButtonElement).addEventListener('click', () => {
       this.former = [];
       this.draw();
@@ -43,24 +47,32 @@ export class PoleMap {
     this.list();
   }
 
+  /** Another window, by its number. */
+  look(window: number): void {
+    this.window = window;
+    this.draw();
+  }
+
   private draw(): void {
     const { clientWidth: width, clientHeight: height } = this.svg;
     if (width === 0) return;
-    const { re, im } = WINDOWS[element('map-window', HTMLSelectElement).value]!;
-    const x = (value: number): number => MARGIN.left + ((value - re[0]) / (re[1] - re[0])) * (width - MARGIN.left - MARGIN.right);
-    const y = (value: number): number => height - MARGIN.bottom - ((value - im[0]) / (im[1] - im[0])) * (height - MARGIN.top - MARGIN.bottom);
+    const { re, im } = WINDOWS[this.window]!;
+    const text = textSize(TEXT);
+    const [left, right, top, bottom] = MARGINS.map((part) => part * text) as [number, number, number, number];
+    const x = (value: number): number => left + ((value - re[0]) / (re[1] - re[0])) * (width - left - right);
+    const y = (value: number): number => height - bottom - ((value - im[0]) / (im[1] - im[0])) * (height - top - bottom);
     this.svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     const inside = ({ re: a, im: b }: Root): boolean => a >= re[0] && a <= re[1] && b >= im[0] && b <= im[1];
     const marks = (kind: Kind, list: readonly Root[]): string =>
       list.filter(inside).map((root) => mark(kind, x(root.re), y(root.im), root)).join('');
     const printed = this.printed();
     this.svg.innerHTML = [
-      ticks(re, x, (at, text) => `<path class="grid" d="M${at} ${MARGIN.top}V${height - MARGIN.bottom}"/><text x="${at}" y="${height - MARGIN.bottom + 16}" text-anchor="middle">${text}</text>`),
-      ticks(im, y, (at, text) => `<path class="grid" d="M${MARGIN.left} ${at}H${width - MARGIN.right}"/><text x="${MARGIN.left - 6}" y="${at + 4}" text-anchor="end">${text}</text>`),
-      `<path class="axis" d="M${x(0)} ${MARGIN.top}V${height - MARGIN.bottom}"/>`,
-      `<text x="${(MARGIN.left + width) / 2}" y="${height - 6}" text-anchor="middle">real part, rad/s</text>`,
-      `<text transform="translate(13 ${height / 2}) rotate(-90)" text-anchor="middle">imaginary part, rad/s</text>`,
-      marks('former', this.former),
+      ticks(re, x, (at, value) => `<path class="grid" d="M${at} ${top}V${height - bottom}"/><text x="${at}" y="${height - bottom + 1.3 * text}" text-anchor="middle">${value}</text>`),
+      ticks(im, y, (at, value) => `<path class="grid" d="M${left} ${at}H${width - right}"/><text x="${left - text / 2}" y="${at + text / 3}" text-anchor="end">${value}</text>`),
+      `<path class="axis" d="M${x(0)} ${top}V${height - bottom}"/>`,
+      `<text x="${(left + width) / 2}" y="${height - text / 2}" text-anchor="middle">real part, rad/s</text>`,
+      `<text transform="translate(${text} ${height / 2}) rotate(-90)" text-anchor="middle">imaginary part, rad/s</text>`,
+      `<path class="former" d="${this.former.filter(inside).map((root) => `M${x(root.re).toFixed(1)} ${y(root.im).toFixed(1)}h0`).join('')}"/>`,
       marks('printed-pole', printed.poles),
       marks('printed-zero', printed.zeros),
       marks('zero', this.roots.zeros),
@@ -102,9 +114,7 @@ function mark(kind: Kind, x: number, y: number, root: Root): string {
     zero: `<circle cx="${x}" cy="${y}" r="${SIZE}"/>`,
     'printed-pole': `<path d="${plus}"/>`,
     'printed-zero': `<path d="M${x} ${y - SIZE}L${x + SIZE} ${y}L${x} ${y + SIZE}L${x - SIZE} ${y}Z"/>`,
-    former: `<circle cx="${x}" cy="${y}" r="1.5"/>`,
   };
-  if (kind === 'former') return `<g class="${kind}">${shapes[kind]}</g>`;
   const text = `${kind.replace('printed-', 'paper: ')} ${shown(root.re, 5)}${root.im ? ` ± ${shown(root.im, 5)}i` : ''} rad/s`;
   return `<g class="${kind}"><title>${text}</title>${shapes[kind]}</g>`;
 }

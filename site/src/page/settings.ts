@@ -11,19 +11,24 @@ export const PARAMETERS = [
   'slosh_frequency',
   'mach0',
   'altitude0',
-  'eta1_offset',
-  'slosh1_offset',
-  'slosh2_offset',
 ] as const;
 
-/** Settings of the page itself: default, and what is allowed. */
-const OWN = {
+export const DEGREES = 180 / Math.PI;
+
+/** Settings of the page itself: default, and what is allowed. Angles are in rad; `outputs` has a bit for each strip. */
+export const OWN = {
   step: { start: 0.002, min: 0.0001, max: 0.1 },
   speed: { start: 0.5, min: 0.1, max: 10 },
   magnified: { start: 50, min: 1, max: 200 },
   window: { start: 5, min: 0.1, max: 1000 },
-  autopilot: { start: 0, min: 0, max: 1 },
-  manoeuvre: { start: 0, min: 0, max: 2 },
+  autopilot: { start: 0, min: 0, max: 1, whole: true },
+  manoeuvre: { start: 0, min: 0, max: 4, whole: true },
+  delta_e: { start: 0, min: -2 / DEGREES, max: 2 / DEGREES },
+  phi: { start: 0, min: -0.3, max: 0.3 },
+  gamma_wanted: { start: 0, min: -1 / DEGREES, max: 1 / DEGREES },
+  V_change: { start: 0, min: -30, max: 30 },
+  map: { start: 0, min: 0, max: 2, whole: true },
+  outputs: { start: 2 ** 8 - 1, min: 0, max: 2 ** 14 - 1, whole: true },
 } as const;
 
 export type Own = keyof typeof OWN;
@@ -62,8 +67,9 @@ export class Settings {
     return changed.map((name) => `${name}=${this.get(name)}`).join('&');
   }
 
-  /** Takes the settings of a link; returns what is no setting. */
+  /** Takes the settings of a link, and the defaults of those that are not in it; returns what is no setting. */
   read(link: string): string[] {
+    for (const name of Object.keys(this.values) as Setting[]) this.set(name, this.start(name));
     const refused: string[] = [];
     for (const [name, text] of new URLSearchParams(link)) {
       const value = Number(text);
@@ -76,7 +82,10 @@ export class Settings {
   /** Parameters beyond their range are left to the FMU, which says why it refuses them. */
   private allows(name: string, value: number): boolean {
     if (!Number.isFinite(value) || !Object.hasOwn(this.values, name)) return false;
-    if (isOwn(name)) return value >= OWN[name].min && value <= OWN[name].max;
+    if (isOwn(name)) {
+      const { min, max, whole } = { whole: false, ...OWN[name] };
+      return value >= min && value <= max && (!whole || Number.isInteger(value));
+    }
     return this.variables.get(name)?.type === 'real' || Number.isInteger(value);
   }
 

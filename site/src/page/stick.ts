@@ -1,14 +1,15 @@
 // What the pilot of the page holds: controls by hand, or what the autopilot is asked for.
 
 import { element, input, shown } from './element';
+import { DEGREES } from './settings';
 
 const HAND = ['delta_e', 'phi'] as const;
 const ASKED = ['gamma_wanted', 'V_change'] as const;
-type Name = (typeof HAND)[number] | (typeof ASKED)[number];
+export const COMMANDS = [...HAND, ...ASKED] as const;
+type Name = (typeof COMMANDS)[number];
 
 /** Steps of a slider per key. */
 const STEPS_PER_KEY = 5;
-const DEGREES = 180 / Math.PI;
 const UNITS: Record<Name, { unit: string; factor: number }> = {
   delta_e: { unit: '°', factor: DEGREES },
   phi: { unit: '', factor: 1 },
@@ -20,7 +21,7 @@ export class Stick {
   autopilot = false;
 
   constructor(private readonly moved: () => void) {
-    for (const name of [...HAND, ...ASKED]) {
+    for (const name of COMMANDS) {
       input(name).addEventListener('input', () => {
         this.label(name);
         moved();
@@ -34,7 +35,7 @@ export class Stick {
     return input(name).valueAsNumber / UNITS[name].factor;
   }
 
-  /** Shows what a manoeuvre does. */
+  /** Moves a slider, as a manoeuvre or a link does. */
   show(name: Name, value: number): void {
     const text = String(value * UNITS[name].factor);
     if (Number(input(name).value) === Number(text)) return;
@@ -50,7 +51,7 @@ export class Stick {
 
   /** All sliders in the middle. */
   centre(): void {
-    for (const name of [...HAND, ...ASKED]) {
+    for (const name of COMMANDS) {
       input(name).value = '0';
       this.label(name);
     }

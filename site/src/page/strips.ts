@@ -1,13 +1,15 @@
 // Live strips of the outputs.
 
 import uPlot from 'uplot';
-import type { Theme } from '../drawing/theme';
+import { textSize, type Theme } from '../drawing/theme';
 import type { History } from '../flight/history';
+import { thinned } from '../flight/thinned';
 import type { Variable } from '../fmu/variables';
 import { element, shown } from './element';
+import { OWN } from './settings';
 
-/** Outputs of one strip have one unit. */
-const STRIPS: { title: string; names: string[]; hidden?: true }[] = [
+/** Outputs of one strip have one unit. The first eight are shown if nothing else is chosen. */
+const STRIPS: { title: string; names: string[] }[] = [
   { title: 'Angles', names: ['alpha', 'gamma', 'theta'] },
   { title: 'Pitch rate', names: ['q', 'q_imu'] },
   { title: 'Flexible modes', names: ['eta1', 'eta2', 'eta3'] },
@@ -16,18 +18,20 @@ const STRIPS: { title: string; names: string[]; hidden?: true }[] = [
   { title: 'Fuel ratio', names: ['phi_effective', 'choking_margin'] },
   { title: 'Load factor', names: ['n_z', 'n_z_imu', 'n_x_imu'] },
   { title: 'Airspeed', names: ['V'] },
-  { title: 'Altitude', names: ['h'], hidden: true },
-  { title: 'Mach number', names: ['mach'], hidden: true },
-  { title: 'Dynamic pressure', names: ['qbar'], hidden: true },
-  { title: 'Forces', names: ['lift', 'drag', 'thrust'], hidden: true },
-  { title: 'Moment', names: ['moment'], hidden: true },
-  { title: 'Sensors', names: ['theta_imu', 'gamma_imu', 'alpha_probe'], hidden: true },
+  { title: 'Altitude', names: ['h'] },
+  { title: 'Mach number', names: ['mach'] },
+  { title: 'Dynamic pressure', names: ['qbar'] },
+  { title: 'Forces', names: ['lift', 'drag', 'thrust'] },
+  { title: 'Moment', names: ['moment'] },
+  { title: 'Sensors', names: ['theta_imu', 'gamma_imu', 'alpha_probe'] },
 ];
 /** Height of a strip, px: of a wide one more. */
 const LEAST_HEIGHT = 150;
 const HEIGHT_PER_WIDTH = 0.3;
 /** Most points of a line: more are not seen. */
 const MOST_POINTS = 1200;
+/** Most strips that are drawn in one frame. */
+const AT_ONCE = 2;
 /** Shortest time that a strip shows, s. */
 const SHORTEST_S = 0.1;
 /** Least range of a strip, of the value and in its unit, so that rounding errors are not seen. */
@@ -47,7 +51,7 @@ class Strip {
   create(theme: Theme): void {
     this.plot?.destroy();
     const { unit } = this.variables[0]!.display;
-    const axis = { stroke: theme.muted, grid: { stroke: theme.grid, width: 1 }, ticks: { stroke: theme.grid, width: 1 }, font: '11px system-ui' };
+    const axis = { stroke: theme.muted, grid: { stroke: theme.grid, width: 1 }, ticks: { stroke: theme.grid, width: 1 }, font: `${textSize(0.7)}px system-ui` };
     const series = this.variables.map(({ name }, i) => ({
       label: name,
       stroke: theme.lines[i]!,
@@ -62,7 +66,7 @@ class Strip {
         title: unit === '1' ? this.title : `${this.title}, ${unit}`,
         cursor: { sync: { key: 'time' }, drag: { x: false, y: false } },
         scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + SHORTEST_S)] }, y: { range: (_, low, high) => padded(low, high) } },
-        axes: [{ ...axis, size: 24 }, { ...axis, size: 62, values: (_, ticks) => ticks.map((tick) => shown(tick, 6)) }],
+        axes: [{ ...axis, size: textSize(1.5) }, { ...axis, size: textSize(3.9), values: (_, ticks) => ticks.map((tick) => shown(tick, 6)) }],
         series: [{ label: 'time, s', value: (_, value) => (value === null ? '–' : shown(value, 5)) }, ...series],
       },
       [[], ...this.variables.map(() => [])],
@@ -74,16 +78,10 @@ class Strip {
     if (!this.plot || this.figure.hidden) return;
     const times = history.column('time');
     const first = lowerBound(times, history.last('time') - seconds);
-    const stride = Math.ceil((times.length - first) / MOST_POINTS);
-    const thin = (column: Float64Array, factor: number): number[] => {
-      const points: number[] = [];
-      for (let row = first; row < column.length; row += stride) points.push(column[row]! * factor);
-      return points;
-    };
-    const lines = this.variables.map(({ name, display }) => thin(history.column(name), display.factor));
+    const lines = this.variables.map(({ name, display }) => thinned(history.column(name).subarray(first), MOST_POINTS, display.factor));
     // A single row has no extent: an end without values gives it one.
     const end = history.length > 1 ? [] : [history.last('time') + SHORTEST_S];
-    this.plot.setData([[...thin(times, 1), ...end], ...lines.map((line) => [...line, ...end.map(() => null)])]);
+    this.plot.setData([[...thinned(times.subarray(first), MOST_POINTS), ...end], ...lines.map((line) => [...line, ...end.map(() => null)])]);
   }
 
   /** Puts the cursor at a time. */
@@ -103,50 +101,88 @@ class Strip {
 }
 
 export class Strips {
-  private readonly strips: Strip[];
-  private next = 0;
+  private readonly strips: { strip: Strip; box: HTMLInputElement; bit: number }[];
+  private readonly seen = new Set<Element>();
+  private readonly asked = new Set<Strip>();
+  private turn = 0;
 
-  constructor(variables: ReadonlyMap<string, Variable>, theme: Theme) {
+  /** `chosen` gets a bit for each strip that the user wants to see. */
+  constructor(variables: ReadonlyMap<string, Variable>, theme: Theme, chosen: (shown: number) => void) {
     const [area, choice] = [element('strips', HTMLElement), element('shown-strips', HTMLElement)];
-    const known = (names: string[]): Variable[] => names.flatMap((name) => variables.get(name) ?? []);
-    this.strips = STRIPS.filter(({ names }) => known(names).length > 0).map(({ title, names, hidden }) => {
-      const strip = new Strip(title, known(names));
-      area.append(strip.figure);
-      strip.figure.hidden = hidden ?? false;
-      choice.append(checkbox(title, !hidden, (on) => (strip.figure.hidden = !on)));
-      return strip;
+    const view = new IntersectionObserver((changes) => {
+      for (const { target, isIntersecting } of changes) {
+        if (isIntersecting) this.seen.add(target);
+        else this.seen.delete(target);
+      }
     });
+    this.strips = STRIPS.flatMap(({ title, names }, i) => {
+      const known = names.flatMap((name) => variables.get(name) ?? []);
+      if (known.length === 0) return [];
+      const strip = new Strip(title, known);
+      const [label, box] = checkbox(title);
+      box.addEventListener('change', () => {
+        strip.figure.hidden = !box.checked;
+        chosen(this.strips.reduce((bits, one) => bits + (one.box.checked ? one.bit : 0), 0));
+      });
+      area.append(strip.figure);
+      choice.append(label);
+      view.observe(strip.figure);
+      return { strip, box, bit: 2 ** i };
+    });
+    this.choose(OWN.outputs.start);
     this.recolour(theme);
-    new ResizeObserver(() => this.strips.forEach((strip) => strip.resize())).observe(area);
+    new ResizeObserver(() => this.strips.forEach(({ strip }) => strip.resize())).observe(area);
+  }
+
+  /** Whether some that are asked for are not drawn yet. */
+  get late(): boolean {
+    return this.asked.size > 0;
+  }
+
+  /** Shows the strips whose bits are set. */
+  choose(shown: number): void {
+    for (const { strip, box, bit } of this.strips) {
+      box.checked = (shown & bit) !== 0;
+      strip.figure.hidden = !box.checked;
+    }
   }
 
   recolour(theme: Theme): void {
-    this.strips.forEach((strip) => strip.create(theme));
+    this.strips.forEach(({ strip }) => strip.create(theme));
   }
 
-  /** One strip after the other, so that no frame of the vehicle is late. */
+  /** All are to be drawn again. */
+  ask(): void {
+    for (const { strip } of this.strips) if (!strip.figure.hidden) this.asked.add(strip);
+  }
+
+  /** Draws a few, so that no frame of the vehicle is late: those that are asked for, else those in view in turn. */
   showNext(history: History, seconds: number): void {
-    const visible = this.strips.filter(({ figure }) => !figure.hidden);
-    if (visible.length === 0) return;
-    this.next = (this.next + 1) % visible.length;
-    visible[this.next]!.show(history, seconds);
+    const seen = this.strips.filter(({ strip }) => this.seen.has(strip.figure));
+    if (this.asked.size === 0) {
+      for (let turn = 0; turn < Math.min(AT_ONCE, seen.length); turn++) this.asked.add(seen[this.turn++ % seen.length]!.strip);
+    }
+    for (const strip of [...this.asked].slice(0, AT_ONCE)) {
+      strip.show(history, seconds);
+      this.asked.delete(strip);
+    }
   }
 
   point(time: number): void {
-    this.strips.forEach((strip) => strip.point(time));
+    this.strips.forEach(({ strip }) => strip.point(time));
   }
 
   showAll(history: History, seconds: number): void {
-    this.strips.forEach((strip) => strip.show(history, seconds));
+    this.strips.forEach(({ strip }) => strip.show(history, seconds));
+    this.asked.clear();
   }
 }
 
-function checkbox(text: string, checked: boolean, changed: (on: boolean) => void): HTMLLabelElement {
+function checkbox(text: string): [HTMLLabelElement, HTMLInputElement] {
   const [label, box] = [document.createElement('label'), document.createElement('input')];
-  Object.assign(box, { type: 'checkbox', checked });
-  box.addEventListener('change', () => changed(box.checked));
+  box.type = 'checkbox';
   label.append(box, ` ${text}`);
-  return label;
+  return [label, box];
 }
 
 /** A range that shows a constant as a line in the middle. */

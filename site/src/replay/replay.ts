@@ -30,7 +30,7 @@ export class Replay {
     this.outline = outline(flight.vehicle);
     const variables = new Map(flight.variables.map((variable) => [variable.name, variable as Variable]));
     this.readout = new Readout(variables);
-    this.strips = new Strips(variables, this.theme);
+    this.strips = new Strips(variables, this.theme, () => this.draw());
   }
 
   run(): void {
@@ -49,14 +49,13 @@ export class Replay {
     input('time').addEventListener('input', () => this.show());
     input('magnified').addEventListener('input', () => this.show());
     button('play').addEventListener('click', () => this.play(!this.playing));
-    onKeys({ ' ': () => this.play(!this.playing), '.': () => this.move(this.row() + 1), ',': () => this.move(this.row() - 1) }, (key) => this.arrow(key));
+    onKeys({ ' ': () => this.play(!this.playing), '.': () => this.move(1), ',': () => this.move(-1) }, (key) => this.arrow(key));
     onThemeChange(() => {
       this.theme = theme();
       this.strips.recolour(this.theme);
       this.draw();
     });
     new ResizeObserver(() => this.show()).observe(this.canvas);
-    element('shown-strips', HTMLElement).addEventListener('change', () => this.draw());
     this.draw();
   }
 
@@ -66,13 +65,16 @@ export class Replay {
   }
 
   private arrow(key: string): boolean {
-    const rows = { ArrowLeft: -1, ArrowRight: 1 }[key];
-    if (rows !== undefined) this.move(this.row() + rows);
-    return rows !== undefined;
+    const instants = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    if (instants !== undefined) this.move(instants);
+    return instants !== undefined;
   }
 
-  private move(row: number): void {
-    input('time').value = String(this.times[Math.min(Math.max(row, 0), this.times.length - 1)]);
+  /** To the next instant, or to the one before; a jump has two rows at one instant. */
+  private move(direction: number): void {
+    const now = this.times[this.row()]!;
+    const other = direction > 0 ? this.times.find((time) => time > now) : this.times.findLast((time) => time < now);
+    input('time').value = String(other ?? now);
     this.show();
   }
 
