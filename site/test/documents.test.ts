@@ -12,7 +12,7 @@ const guides = readdirSync(join(site, 'guide'), { recursive: true, encoding: 'ut
 for (const colorScheme of ['light', 'dark'] as const) {
   test(`documents at 400 px, ${colorScheme}: nothing is cut off, and axe-core finds nothing`, async () => {
     assert.ok(guides.includes('README.html'));
-    for (const page of ['documentation/index.html', ...guides.map((guide) => join('guide', guide))]) {
+    for (const page of ['documentation/index.html', 'paper.html', ...guides.map((guide) => join('guide', guide))]) {
       const { width, faults } = await chromium.read(join(site, page), { viewport: { width: 400, height: 800 }, colorScheme });
       assert.equal(width, 400, page);
       assert.deepEqual(faults, [], page);

@@ -59,8 +59,10 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
     html::push_html(&mut body, events.into_iter());
     // Wide tables scroll by themselves instead of the page.
     let body = body
-        .replace("<table>", "<div class=\"table\"><table>")
-        .replace("</table>", "</table></div>");
+        .replace("<table>", "<div class=\"table\" tabindex=\"0\"><table>")
+        .replace("</table>", "</table></div>")
+        // A corner without words is no heading.
+        .replace("<th></th>", "<td></td>");
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
