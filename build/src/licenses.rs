@@ -77,6 +77,7 @@ fn linked_crates(model: &PackagedModel) -> Result<Vec<Crate>> {
         &library,
         &component,
         "--edges=normal,no-proc-macro",
+        "--target=all",
         "--prefix=none",
         "--format={p}",
     ])?;

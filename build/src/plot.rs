@@ -30,12 +30,15 @@ const MAX_LABELS: usize = 6;
 /// PNG pixels per pixel at scale one.
 const PNG_PIXELS_PER_PIXEL: usize = 2;
 
-/// flight.svg and flight.png.
+/// flight.svg and flight.png; none of an FMU whose variables no panel shows.
 pub fn figures(record: &Record, title: &str, directory: &Path) -> Result<Files> {
     let title = lines(title, MAX_TITLE_CHARACTERS);
     let mut panels = moving(record, false);
     if panels.is_empty() {
         panels = moving(record, true);
+    }
+    if panels.is_empty() {
+        return Ok(Files::new());
     }
     let rows = panels.len().div_ceil(2) as u32;
     let height =
@@ -216,6 +219,13 @@ mod tests {
     fn a_long_title_breaks_after_commas() {
         assert_eq!(lines("Rigid, mach0=9, a.csv", 80), ["Rigid, mach0=9, a.csv"]);
         assert_eq!(lines("Rigid, mach0=9, a.csv", 14), ["Rigid, ", "mach0=9, a.csv"]);
+    }
+
+    #[test]
+    fn an_fmu_without_variables_to_draw_has_no_picture() {
+        let names = ["time", "u", "y"].map(String::from).to_vec();
+        let record = Record { names, rows: vec![vec![0.0; 3], vec![1.0; 3]] };
+        assert!(figures(&record, "actuator", Path::new("")).unwrap().is_empty());
     }
 
     #[test]

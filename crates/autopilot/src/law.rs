@@ -6,6 +6,7 @@ use crate::written::File;
 use fmi_model::identity::fnv;
 use fmi_model::location;
 use std::path::Path;
+use std::sync::Arc;
 
 /// States of a design model at most.
 pub const MOST_STATES: usize = 16;
@@ -75,8 +76,8 @@ impl Design {
 /// Designs for one or several sampling periods, each for one or several levels of fuel.
 #[derive(Debug, Clone)]
 pub struct Law {
-    /// By period as in the file, by fuel in growing order.
-    designs: Vec<Design>,
+    /// By period as in the file, by fuel in growing order; running autopilots share them.
+    designs: Vec<Arc<[Design]>>,
     /// Hash of the file.
     pub hash: u128,
 }
@@ -141,6 +142,7 @@ impl Law {
             let key = if a.period_s == b.period_s { "fuel_mass_kg_per_m" } else { "period_s" };
             return Err(Error::Design { design: i + 2, key, problem });
         }
+        let designs = designs.chunk_by(|a, b| a.period_s == b.period_s).map(Arc::from).collect();
         Ok(Self { designs, hash: fnv(0, text.as_bytes()) })
     }
 
@@ -148,16 +150,13 @@ impl Law {
     ///
     /// # Errors
     /// [`Error::Period`].
-    pub fn designs(&self, period_s: f64) -> Result<&[Design], Error> {
-        let wanted_s = if period_s == 0.0 { self.designs[0].period_s } else { period_s };
-        let same = |design: &Design| design.period_s == wanted_s;
-        let Some(first) = self.designs.iter().position(same) else {
-            let mut known_s: Vec<_> = self.designs.iter().map(|design| design.period_s).collect();
-            known_s.dedup();
-            return Err(Error::Period { period_s, known_s });
-        };
-        let count = self.designs[first..].iter().take_while(|design| same(design)).count();
-        Ok(&self.designs[first..first + count])
+    pub fn designs(&self, period_s: f64) -> Result<&Arc<[Design]>, Error> {
+        let known_s = self.designs.iter().map(|designs| designs[0].period_s);
+        let same = |known_s| period_s == 0.0 || known_s == period_s;
+        match known_s.clone().position(same) {
+            Some(number) => Ok(&self.designs[number]),
+            None => Err(Error::Period { period_s, known_s: known_s.collect() }),
+        }
     }
 }
 
@@ -169,7 +168,7 @@ mod tests {
     fn the_built_in_law_is_valid() {
         let law = Law::parse(BUILT_IN).unwrap();
         let designs = law.designs(0.0).unwrap();
-        assert_eq!(designs.len(), law.designs.len());
+        assert_eq!(law.designs.len(), 1);
         assert_eq!(designs[0].fuel_fraction, 0.0);
         assert_eq!(designs[designs.len() - 1].fuel_fraction, 1.0);
     }

@@ -137,3 +137,17 @@ impl Model for Autopilot {
 }
 
 fmi_model::export!(Autopilot);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn running_autopilots_share_their_designs() {
+        let autopilot = Autopilot::new().unwrap();
+        let _running = [0.0, 0.5].map(|fuel_fraction| {
+            Autopilot { fuel_fraction, ..autopilot.clone() }.start(0.0, 1e-6).unwrap()
+        });
+        assert_eq!(Arc::strong_count(autopilot.law.designs(0.0).unwrap()), 3);
+    }
+}

@@ -2,6 +2,7 @@
 
 use crate::gains::{FEEDBACK_COLUMNS, Gains};
 use crate::law::{COMMANDS, Design, MEASURED, MOST_STATES, WANTED};
+use std::sync::Arc;
 
 /// A measurement beyond this is not believed, in m/s, rad, rad/s, and nothing that is remembered or wanted grows beyond
 /// it, whatever a model does without a measurement: nothing overflows.
@@ -39,7 +40,7 @@ impl Memory {
 #[derive(Debug, Clone)]
 pub struct Pilot {
     /// Designs by growing fuel.
-    designs: Vec<Design>,
+    designs: Arc<[Design]>,
     /// Gains in force.
     gains: Gains,
     /// Fuel that they are for, kg/m.
@@ -55,13 +56,13 @@ impl Pilot {
     /// The law that starts with a design about a level flight with these measurements and limits; others to
     /// follow the fuel.
     pub fn new(
-        designs: &[Design],
+        designs: &Arc<[Design]>,
         start: Design,
         level: [f64; MEASURED],
         [low, high]: [[f64; COMMANDS]; 2],
     ) -> Self {
         Self {
-            designs: designs.to_vec(),
+            designs: Arc::clone(designs),
             gains: start.gains,
             fuel_mass_kg_per_m: start.fuel_mass_kg_per_m,
             level,

@@ -23,7 +23,7 @@ from fly import agreement
 from harness import Package, packaged
 from law import HIGH, autopilot_beside
 from loop import Loop
-from masters import MasterFailed, fly_fmpy, fly_libcosim, names
+from masters import fly_fmpy, fly_libcosim, names
 from system import BadSystem
 
 EXAMPLE = Path(design.__file__).parent
@@ -56,14 +56,6 @@ def law(package: Package) -> design.Law:
 def autopilot(package: Package) -> Path:
     """The FMU of the native autopilot."""
     return autopilot_beside(package.path)
-
-
-@pytest.fixture(scope="module")
-def ssp(package: Package, law: design.Law, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The closed loop with an autopilot and a manoeuvre in Python, as a file."""
-    folder = tmp_path_factory.mktemp("ssp")
-    parts = system.foreign(package.path, law, EXAMPLE / "manoeuvre.csv", folder)
-    return system.build(folder / "closed_loop.ssp", parts, STOP_S)
 
 
 def test_example_climbs_alike_in_all_masters(package: Package, tmp_path: Path) -> None:
@@ -109,33 +101,6 @@ def test_parameter_sets_reach_autopilot_and_vehicle(
         assert np.abs(rows[:, column] - values).max() < 1e-9 * np.ptp(values), name
 
 
-def test_the_autopilot_in_python_flies_like_the_native_one(
-    package: Package, autopilot: Path, ssp: Path, tmp_path: Path
-) -> None:
-    """Two programs of one law; what differs is rounding, and that of the design in LAPACK."""
-    parts = system.native(package.path, autopilot, EXAMPLE / "manoeuvre.csv")
-    path = system.build(tmp_path / "native.ssp", parts, STOP_S)
-    flown = [fly_libcosim(file, tmp_path / "flight.csv", STOP_S) for file in (ssp, path)]
-    for name in names(path):
-        one, other = (
-            rows[:, 1 + names(file).index(name)]
-            for rows, file in zip(flown, (ssp, path), strict=True)
-        )
-        assert np.abs(one - other).max() <= 1e-6 * np.ptp(other), name
-
-
-def test_an_autopilot_that_sends_nan_ends_the_flight_and_loses_nothing(
-    package: Package, tmp_path: Path
-) -> None:
-    manoeuvre = tmp_path / "manoeuvre.csv"
-    manoeuvre.write_text("time_s,V_change,gamma_wanted\n0,0,0\n1,0,0\n2,0,nan\n", encoding="utf-8")
-    run = fly(package, tmp_path, "--python", "--manoeuvre", str(manoeuvre))
-    assert run.returncode == 1
-    assert "NaN is refused" in run.stderr and "after t = 1.0" in run.stderr
-    rows = np.genfromtxt(tmp_path / "libcosim.csv", delimiter=",", names=True)
-    assert len(rows) > 90 and np.isfinite(rows["vehicleV"]).all()
-
-
 def test_a_law_that_commands_no_number_ends_its_flight_with_the_reason(
     package: Package, law: design.Law
 ) -> None:
@@ -157,43 +122,6 @@ def test_an_autopilot_at_its_stops_does_not_wind_up(package: Package, tmp_path: 
     assert rows["vehiclephi_effective"].max() == pytest.approx(HIGH[1], rel=1e-12)
     assert 0.0 < rows["vehicleV"][-1] - rows["vehicleV"][0] < 1.2 * 90.0
     assert np.abs(rows["vehiclegamma"]).max() < 5.0 * design.DEG
-
-
-@pytest.mark.parametrize(
-    ("trouble", "said"),
-    [("time.sleep(60)", "no answer for 3 s"), ("os.abort()", "exit status -6")],
-    ids=["stops answering", "crashes"],
-)
-def test_a_component_that_hangs_or_dies_ends_the_flight_and_loses_nothing(
-    ssp: Path, tmp_path: Path, trouble: str, said: str
-) -> None:
-    code = (EXAMPLE / "manoeuvre.py").read_text(encoding="utf-8").replace("from pathlib", "%s", 1)
-    code = code.replace("%s", "import os\nimport time\nfrom pathlib")
-    at = '"""Values at the end of the step."""\n'
-    assert at in code
-    script = tmp_path / "manoeuvre.py"
-    script.write_text(
-        code.replace(at, f"{at}        if current_time > 0.995:\n            {trouble}\n"), "utf-8"
-    )
-    bad = tmp_path / "bad.ssp"
-    with zipfile.ZipFile(ssp) as good, zipfile.ZipFile(bad, "w") as copy:
-        good.extract("resources/manoeuvre.fmu", tmp_path)
-        with (
-            zipfile.ZipFile(tmp_path / "resources/manoeuvre.fmu") as fmu,
-            copy.open("resources/manoeuvre.fmu", "w") as file,
-            zipfile.ZipFile(file, "w") as changed,
-        ):
-            for name in fmu.namelist():
-                new = script.read_bytes() if name == "resources/manoeuvre.py" else fmu.read(name)
-                changed.writestr(name, new)
-        for name in good.namelist():
-            if name != "resources/manoeuvre.fmu":
-                copy.writestr(name, good.read(name))
-    with pytest.raises(MasterFailed) as failure:
-        fly_libcosim(bad, tmp_path / "flight.csv", STOP_S, patience_s=3.0)
-    assert said in str(failure.value) and "after t = 1.00 s" in str(failure.value)
-    rows = np.genfromtxt(tmp_path / "flight.csv", delimiter=",", skip_header=1)
-    assert rows.shape == (100, 1 + len(names(bad)))
 
 
 @pytest.mark.parametrize(

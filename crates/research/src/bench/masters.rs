@@ -39,7 +39,7 @@ pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
     command
         .arg(root().join("crates/research/bench/fmpy_steps.py"))
         .arg((3 * effort.repeats).to_string());
-    command.arg(package::build_default(Targets::Possible)?).arg(idle()?);
+    command.arg(package::build_default(Targets::AsExisting)?).arg(idle()?);
     match python_fmu(&python) {
         Ok(file) => {
             command.arg(file);

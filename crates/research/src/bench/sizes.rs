@@ -21,7 +21,7 @@ fn resident() -> Result<f64> {
 }
 
 pub fn measure(effort: &Effort, report: &mut Report) -> Result<()> {
-    let fmu = Fmu::open(&package::build_default(Targets::Possible)?)?;
+    let fmu = Fmu::open(&package::build_default(Targets::AsExisting)?)?;
     let library = std::fs::metadata(&fmu.binary)?.len() as f64 / 1e6;
     report.line("library", Spread::exact(library), "MB", "aim 1");
     let bytes = FmuState::<Setup>::encoded_len()? as f64 / 1e3;
