@@ -15,6 +15,7 @@ try:
     from fmpy import extract
     from scipy.linalg import expm
 
+    import command_line
     import design
     from law import PERIOD_S, BadLaw, Law, part_beside
     from margins import margins
@@ -80,9 +81,7 @@ def main() -> None:
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     options = parser.parse_args()
     autopilot = part_beside(options.fmu, "autopilot")
-    for file in (options.fmu, autopilot):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
+    command_line.need(options.fmu, autopilot)
     full = design.model(extract(str(options.fmu)))
     try:
         law = Law.within(autopilot)

@@ -16,6 +16,7 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
     import models
     from flight import Flight, fly, wanted
@@ -129,12 +130,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--points", type=int, help="points of each sweep; default: all")
-    parser.add_argument("--stop", type=float, default=60.0, help="duration of the hard case, s")
+    parser.add_argument(
+        "--stop", type=command_line.duration, default=60.0, help="duration of the hard case, s"
+    )
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu)
+    command_line.make(options.output)
     folder = extract(str(options.fmu))
     rows = study(folder, options.points)
     show(rows)
