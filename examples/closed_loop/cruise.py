@@ -20,8 +20,7 @@ try:
     import command_line
     import design
     from flight import Flight, Vehicle, fly
-    from margins import margins
-    from sloshing import cell
+    from margins import cell, margins
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"

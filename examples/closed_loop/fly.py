@@ -17,10 +17,9 @@ try:
     import hardware
     import system
     from law import BadLaw, Law, autopilot_beside
-    from margins import margins
+    from margins import cell, margins
     from masters import MasterFailed, fly_ecos, fly_fmpy, fly_libcosim, names
     from models import FMUError
-    from sloshing import cell
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"

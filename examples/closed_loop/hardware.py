@@ -18,9 +18,8 @@ try:
     import command_line
     import design
     from law import PERIOD_S, BadLaw, Law, part_beside
-    from margins import margins
+    from margins import cell, margins
     from models import MEASURED, SLOSH, STATES, LinearModel, Plant, sampled
-    from sloshing import cell
     from system import COMMANDS, Component
 except ModuleNotFoundError as missing:
     sys.exit(

@@ -20,7 +20,7 @@ try:
     import design
     import models
     from flight import Flight, fly, wanted
-    from margins import margins
+    from margins import cell, margins
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -75,13 +75,6 @@ def show(rows: list[dict[str, float | str]]) -> None:
             cells = [r for r in rows if r["sweep"] == sweep and r["value"] == value]
             if cells:
                 print(f"| {value:g} | " + " | ".join(map(cell, cells)) + " |")
-
-
-def cell(row: dict[str, float | str]) -> str:
-    """Gain margins, dB, and phase margin, deg; or the rate of divergence."""
-    if row["growth_per_s"] >= 0.0:
-        return f"unstable, {row['growth_per_s']:+.2f}/s"
-    return f"{row['gain_down_db']:.1f} {row['gain_up_db']:+.1f} dB, {row['phase_deg']:.0f}°"
 
 
 def picture(rows: list[dict[str, float | str]], path: Path) -> None:

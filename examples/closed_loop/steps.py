@@ -17,9 +17,8 @@ try:
 
     import command_line
     import design
-    from margins import Broken, linear, margins, margins_of
+    from margins import Broken, cell, linear, margins, margins_of
     from models import SLOSH, STATES, LinearModel, sampled
-    from sloshing import cell
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
