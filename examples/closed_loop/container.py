@@ -21,6 +21,7 @@ try:
     from fmu_manipulation_toolbox.assembly import Assembly, AssemblyError
     from fmu_manipulation_toolbox.container import FMUContainerError
 
+    import command_line
     import hardware
     import system
     from law import PERIOD_S, autopilot_beside
@@ -105,10 +106,8 @@ def main() -> None:
     options = parser.parse_args()
     autopilot = options.autopilot or autopilot_beside(options.fmu)
     between = hardware.components(options.fmu) if options.hardware else []
-    for file in (options.fmu, autopilot, *(part.fmu for part in between)):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
-    options.output.parent.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu, autopilot, *(part.fmu for part in between))
+    command_line.make(options.output.parent)
     try:
         build(options.output, system.native(options.fmu, autopilot, between=between))
     except (BadSystem, OSError) as failure:

@@ -19,6 +19,7 @@ try:
     from fmpy.fmi1 import FMICallException
     from scipy.linalg import expm
 
+    import command_line
     import design
     from flight import Vehicle
 except ModuleNotFoundError as missing:
@@ -160,12 +161,11 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=8.0, help="duration, s")
+    parser.add_argument("--stop", type=command_line.duration, default=8.0, help="duration, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu)
+    command_line.make(options.output)
     folder, stop_s = extract(str(options.fmu)), options.stop
     exact = fixed(folder, REFERENCE_S, BOTH, stop_s)
     figure, axis = plt.subplots(figsize=(6.5, 4), layout="constrained")

@@ -17,10 +17,10 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
     from flight import Flight, Vehicle, fly
-    from margins import margins
-    from sloshing import cell
+    from margins import cell, margins
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -112,13 +112,12 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=600.0, help="duration, s")
+    parser.add_argument("--stop", type=command_line.duration, default=600.0, help="duration, s")
     parser.add_argument("--fuel", type=float, default=1.0, help="fuel fraction at the start")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"{options.fmu} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu)
+    command_line.make(options.output)
     folder = extract(str(options.fmu))
     found = cruise(folder, options.stop, options.fuel)
     flown, table, image = found.flown, options.output / "cruise.csv", options.output / "cruise.png"

@@ -13,12 +13,18 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-import control as ct
-import numpy as np
-from fmpy import extract
+try:
+    import control as ct
+    import numpy as np
+    from fmpy import extract
 
-from law import LAW, PERIOD_S, Law, save_schedule
-from models import MEASURED, SLOSH, STATES, LinearModel, model, sampled
+    import command_line
+    from law import LAW, PERIOD_S, BadLaw, Law, save_schedule
+    from models import MEASURED, SLOSH, STATES, LinearModel, model, sampled
+except ModuleNotFoundError as missing:
+    sys.exit(
+        f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
+    )
 
 HERE = Path(__file__).resolve().parent
 DEG = np.pi / 180
@@ -32,6 +38,8 @@ EFFORT = np.array([1.0 * DEG, 0.1])
 INPUT_NOISE = np.array([1.0 * DEG, 0.05])
 STATE_NOISE = {"V": 0.01, "gamma": 0.001 * DEG, "q": 0.01 * DEG}
 SENSOR_NOISE = np.array([0.5, 0.02 * DEG, 0.02 * DEG])
+# Above it the vehicle, which doubles a disturbance in 0.15 s, has hardly any margins.
+LONGEST_S = 0.1
 # Fuel fractions of a schedule: dense where the margins of interpolated gains need it.
 FUELS = [
     *(0.0, 0.025, 0.05, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.25),
@@ -105,24 +113,34 @@ def main() -> None:
         "--period", type=float, nargs="+", default=[PERIOD_S], help="sampling periods, s"
     )
     parser.add_argument("--autopilot", type=Path, help="FMU to copy; then --output is an FMU too")
-    parser.add_argument("--output", type=Path, default=Path("target/closed_loop/law.json"))
+    parser.add_argument(
+        "--output", type=Path, help="default: law.json, or own.fmu, in target/closed_loop"
+    )
     options = parser.parse_args()
-    for file in (options.fmu, options.autopilot):
-        if file and not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
-    if min(options.period) <= 0.0 or min(options.fuel) < 0.0 or max(options.fuel) > 1.0:
-        sys.exit("error: periods must be positive, and fuel fractions within 0 and 1")
+    own = [options.autopilot] if options.autopilot else []
+    command_line.need(options.fmu, *own)
+    if not all(0.0 < period_s <= LONGEST_S for period_s in options.period):
+        sys.exit(f"error: periods must be more than 0 and at most {LONGEST_S} s")
+    if not all(0.0 <= fuel <= 1.0 for fuel in options.fuel):
+        sys.exit("error: fuel fractions must be within 0 and 1")
+    output = options.output or Path("target/closed_loop", "own.fmu" if own else "law.json")
+    if own and output.suffix != ".fmu":
+        sys.exit(f"error: {output}: with --autopilot the output is an FMU, NAME.fmu")
+    command_line.make(output.parent)
+    try:
+        for autopilot in own:
+            Law.within(autopilot)
+    except BadLaw as failure:
+        sys.exit(f"error: {failure}")
     folder = extract(str(options.fmu))
     fuels = sorted(set(options.fuel))
     laws = [law for period_s in options.period for law in schedule(folder, fuels, period_s)]
-    options.output.parent.mkdir(parents=True, exist_ok=True)
-    if options.autopilot is None:
-        save_schedule(options.output, laws)
-    else:
-        with tempfile.TemporaryDirectory() as name:
-            save_schedule(Path(name) / "law.json", laws)
-            with_law(options.autopilot, Path(name) / "law.json", options.output)
-    print(f"{options.output}: {len(laws)} designs")
+    with tempfile.TemporaryDirectory() as name:
+        file = Path(name) / "law.json" if own else output
+        save_schedule(file, laws)
+        for autopilot in own:
+            with_law(autopilot, file, output)
+    print(f"{output}: {len(laws)} designs")
 
 
 if __name__ == "__main__":

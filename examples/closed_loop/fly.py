@@ -12,12 +12,14 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
     import hardware
     import system
     from law import BadLaw, Law, autopilot_beside
-    from margins import margins
+    from margins import cell, margins
     from masters import MasterFailed, fly_ecos, fly_fmpy, fly_libcosim, names
+    from models import FMUError
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -32,6 +34,9 @@ SAME_FLIGHT = 1e-9
 VERSIONS = ("1.0", "2.0")
 # Outputs that a command changes at once; Ecos reads them after the exchange.
 DIRECT = ("n_z", "delta_e_effective", "phi_effective", "choking_margin")
+# Level flight of a vehicle: for the law, and as parameters of the native autopilot.
+LEVEL = (system.MEASURED, ("delta_e_trim", "phi_trim"))
+KNOWN = {"V_level": "V", "delta_e_trim": "delta_e_trim", "phi_trim": "phi_trim"}
 PANELS = [
     ("change of speed, m/s", [("vehicle.V", "flown"), ("V_change", "wanted")], 1.0),
     ("$\\gamma$, deg", [("vehicle.gamma", "flown"), ("gamma_wanted", "wanted")], 57.296),
@@ -72,13 +77,9 @@ def agreement(
     compared = [name for name in outputs if name.startswith("vehicle.")]
     vehicle = [1 + outputs.index(name) for name in compared if name.split(".")[1] not in without]
     difference = np.abs(one[:, vehicle] - other[:, vehicle]).max(axis=0)
-    return float((difference / np.ptp(one[:, vehicle], axis=0)).max())
-
-
-def setting(text: str) -> tuple[str, float]:
-    """NAME=VALUE; a ValueError, if it is not."""
-    name, value = text.split("=")
-    return name, float(value)
+    ranges = np.ptp(one[:, vehicle], axis=0)
+    # What does not change in this flight has no range.
+    return float((difference / np.where(ranges > 0.0, ranges, 1.0)).max())
 
 
 def main() -> None:
@@ -96,53 +97,54 @@ def main() -> None:
     )
     parser.add_argument(
         "--set",
-        type=setting,
+        type=command_line.setting,
         action="append",
         default=[],
         metavar="NAME=VALUE",
         help="parameters of the vehicle",
     )
     parser.add_argument("--manoeuvre", type=Path, default=design.HERE / "manoeuvre.csv")
-    parser.add_argument("--stop", type=float, default=150.0, help="duration, s")
+    parser.add_argument("--stop", type=command_line.duration, default=150.0, help="s")
     parser.add_argument("--patience", type=float, default=30.0, help="longest pause, s")
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
     autopilot = options.autopilot or autopilot_beside(options.fmu)
     between = hardware.components(options.fmu) if options.hardware else []
     native = [] if options.python else [autopilot]
-    for file in (options.fmu, *native, *(part.fmu for part in between)):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu, *native, *(part.fmu for part in between))
+    command_line.make(options.output)
 
-    full = design.model(extract(str(options.fmu)))
-    try:
-        law = design.design(full) if options.python else Law.within(autopilot)
-    except BadLaw as failure:
-        sys.exit(f"error: {failure}")
-    for actuator, name in enumerate(full.inputs):
-        if between:
-            plant = hardware.with_hardware(full, period_s=law.period_s)
-        else:
-            plant = design.sampled(full, design.STATES[design.SLOSH], law.period_s)
-        m = margins(plant, law, actuator)
-        print(
-            f"{name:8} gain {m.gain_down_db:+.1f} to {m.gain_up_db:+.1f} dB, "
-            f"phase {m.phase_deg:.0f} deg, distance from -1 {m.distance:.2f}"
-        )
-    case = dict(options.set)
+    folder, case = extract(str(options.fmu)), dict(options.set)
     files = {version: options.output / f"closed_loop_ssp{version[0]}.ssp" for version in VERSIONS}
     try:
-        with tempfile.TemporaryDirectory() as folder:
+        law = design.design(design.model(folder)) if options.python else Law.within(autopilot)
+        vehicle = system.Component("vehicle", options.fmu, case)
+        system.parameter_set(vehicle, system.read(options.fmu), "2.0")
+        flown = design.model(folder, **case)
+        if case:
+            # The gains stay those of the default vehicle; level flight is another.
+            law = law.at(*(np.array([flown.trim[name] for name in group]) for group in LEVEL))
+        with tempfile.TemporaryDirectory() as name:
             if options.python:
-                parts = system.foreign(options.fmu, law, options.manoeuvre, Path(folder), between)
+                parts = system.foreign(
+                    options.fmu, law, options.manoeuvre, Path(name), case, between
+                )
             else:
-                parts = system.native(options.fmu, autopilot, options.manoeuvre, case, between)
+                level = {own: flown.trim[name] for own, name in KNOWN.items()} if case else {}
+                parts = system.native(
+                    options.fmu, autopilot, options.manoeuvre, case, between, level
+                )
             for version, file in files.items():
                 system.build(file, parts, options.stop, version)
         wanted = system.check_manoeuvre(options.manoeuvre)
-    except (system.BadSystem, OSError, ValueError) as failure:
+    except (BadLaw, FMUError, system.BadSystem, OSError, ValueError) as failure:
         sys.exit(f"error: {failure}")
+    for actuator, name in enumerate(flown.inputs):
+        if between:
+            plant = hardware.with_hardware(flown, period_s=law.period_s)
+        else:
+            plant = design.sampled(flown, design.STATES[design.SLOSH], law.period_s)
+        print(f"margins at {name}: {cell(margins(plant, law, actuator)._asdict())}")
     print(", ".join(map(str, files.values())))
     one, two = files.values()
     csv = options.output / "libcosim.csv"

@@ -15,11 +15,11 @@ try:
     from fmpy import extract
     from scipy.linalg import expm
 
+    import command_line
     import design
     from law import PERIOD_S, BadLaw, Law, part_beside
-    from margins import margins
+    from margins import cell, margins
     from models import MEASURED, SLOSH, STATES, LinearModel, Plant, sampled
-    from sloshing import cell
     from system import COMMANDS, Component
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -80,9 +80,7 @@ def main() -> None:
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     options = parser.parse_args()
     autopilot = part_beside(options.fmu, "autopilot")
-    for file in (options.fmu, autopilot):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
+    command_line.need(options.fmu, autopilot)
     full = design.model(extract(str(options.fmu)))
     try:
         law = Law.within(autopilot)

@@ -91,6 +91,8 @@ class Law:
         """The design that the FMU ahv_autopilot flies by default, for full tanks; or BadLaw."""
         try:
             with zipfile.ZipFile(autopilot) as archive:
+                if LAW not in archive.namelist():
+                    raise BadLaw(f"{autopilot} is not the FMU ahv_autopilot: it has no {LAW}")
                 laws = load_schedule(archive.read(LAW).decode("utf-8"))
         except (zipfile.BadZipFile, KeyError, IndexError, TypeError, ValueError) as failure:
             raise BadLaw(f"{autopilot}: {failure}") from failure

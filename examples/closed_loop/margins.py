@@ -47,6 +47,13 @@ class Margins(NamedTuple):
     least_damping: float
 
 
+def cell(row: dict[str, float | str]) -> str:
+    """Gain margins, dB, and phase margin, deg; or the rate of divergence."""
+    if row["growth_per_s"] >= 0.0:
+        return f"unstable, {row['growth_per_s']:+.2f}/s"
+    return f"{row['gain_down_db']:.1f} {row['gain_up_db']:+.1f} dB, {row['phase_deg']:.0f}°"
+
+
 def linear(law: Law) -> Plant:
     """The law from V, gamma, q to delta_e, phi, about level flight and within the limits."""
     n = len(law.A)

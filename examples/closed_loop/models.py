@@ -12,6 +12,7 @@ from scipy.linalg import expm
 
 # The package of this repository, unless it is installed.
 sys.path.append(str(Path(__file__).resolve().parents[2] / "python/src"))
+from ahv import FMUError as FMUError
 from ahv import Linearizer, LinearModel
 from law import PERIOD_S
 

@@ -16,10 +16,11 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
     import models
     from flight import Flight, fly, wanted
-    from margins import margins
+    from margins import cell, margins
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -76,13 +77,6 @@ def show(rows: list[dict[str, float | str]]) -> None:
                 print(f"| {value:g} | " + " | ".join(map(cell, cells)) + " |")
 
 
-def cell(row: dict[str, float | str]) -> str:
-    """Gain margins, dB, and phase margin, deg; or the rate of divergence."""
-    if row["growth_per_s"] >= 0.0:
-        return f"unstable, {row['growth_per_s']:+.2f}/s"
-    return f"{row['gain_down_db']:.1f} {row['gain_up_db']:+.1f} dB, {row['phase_deg']:.0f}°"
-
-
 def picture(rows: list[dict[str, float | str]], path: Path) -> None:
     """Plot the smallest distance from -1 over each sweep; zero where the loop is unstable."""
     figure, axes = plt.subplots(
@@ -129,12 +123,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--points", type=int, help="points of each sweep; default: all")
-    parser.add_argument("--stop", type=float, default=60.0, help="duration of the hard case, s")
+    parser.add_argument(
+        "--stop", type=command_line.duration, default=60.0, help="duration of the hard case, s"
+    )
     parser.add_argument("--output", type=Path, default=Path("target/closed_loop"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu)
+    command_line.make(options.output)
     folder = extract(str(options.fmu))
     rows = study(folder, options.points)
     show(rows)

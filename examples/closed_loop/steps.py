@@ -15,10 +15,10 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
-    from margins import Broken, linear, margins, margins_of
+    from margins import Broken, cell, linear, margins, margins_of
     from models import SLOSH, STATES, LinearModel, sampled
-    from sloshing import cell
 except ModuleNotFoundError as missing:
     sys.exit(
         f"{missing.name} is missing: pip install --require-hashes -r tests/fmu/requirements.lock"
@@ -65,8 +65,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
+    command_line.need(options.fmu)
     full = design.model(extract(str(options.fmu)))
     print("| step, ms | " + " | ".join(f"{1e3 * step_s:g}" for step_s in STEPS_S) + " |")
     print("|---" * (1 + len(STEPS_S)) + "|")

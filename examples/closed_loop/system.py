@@ -86,22 +86,28 @@ def native(
     manoeuvre: Path | None = None,
     case: Mapping[str, float] = NONE,
     between: Iterable[Component] = (),
+    level: Mapping[str, float] = NONE,
 ) -> list[Component]:
     """The loop of the FMUs ahv and ahv_autopilot; or BadSystem.
 
     Without a manoeuvre in level flight; `case`: parameters of the vehicle; `between`: actuators and
-    sensors.
+    sensors; `level`: parameters of the autopilot for level flight of this case.
     """
-    given = commands(manoeuvre) if manoeuvre else NONE
+    given = commands(manoeuvre) if manoeuvre else {}
     return [
-        Component("autopilot", autopilot, given),
+        Component("autopilot", autopilot, {**given, **level}),
         *between,
         Component("vehicle", vehicle, case),
     ]
 
 
 def foreign(
-    vehicle: Path, law: Law, manoeuvre: Path, folder: Path, between: Iterable[Component] = ()
+    vehicle: Path,
+    law: Law,
+    manoeuvre: Path,
+    folder: Path,
+    case: Mapping[str, float] = NONE,
+    between: Iterable[Component] = (),
 ) -> list[Component]:
     """The loop with an autopilot and a manoeuvre in Python, whose FMUs are built in `folder`."""
     check_manoeuvre(manoeuvre)
@@ -115,7 +121,7 @@ def foreign(
         Component(name, FmuBuilder.build_FMU(HERE / f"{name}.py", folder / f"{name}.fmu", own))
         for name, own in files.items()
     ]
-    return [*parts, *between, Component("vehicle", vehicle)]
+    return [*parts, *between, Component("vehicle", vehicle, case)]
 
 
 def build(path: Path, components: list[Component], stop_s: float, version: str = "2.0") -> Path:
@@ -125,6 +131,8 @@ def build(path: Path, components: list[Component], stop_s: float, version: str =
         described = []
         for component in components:
             variables = read(component.fmu)
+            if "Real" not in {variable.type for variable in variables.values()}:
+                raise BadSystem(f"{component.fmu} is of FMI 3.0: give FMUs of FMI 2.0")
             connectors = kinds(component.name, connections)
             for name, kind in connectors.items():
                 if name not in variables or variables[name].causality != kind:

@@ -20,6 +20,7 @@ sys.path.append(str(HERE.parents[1] / "python/src"))
 try:
     import numpy as np
 
+    import command_line
     import container
     import pictures
     import system
@@ -54,7 +55,9 @@ def arguments() -> argparse.ArgumentParser:
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
     parser.add_argument("--autopilot", type=Path, help="its FMU; default: beside the vehicle's")
     parser.add_argument("--flights", type=int, default=1000)
-    parser.add_argument("--stop", type=float, default=20.0, help="duration of each flight, s")
+    parser.add_argument(
+        "--stop", type=command_line.duration, default=20.0, help="duration of each flight, s"
+    )
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--output", type=Path, default=Path("target/ensemble"))
     return parser
@@ -63,11 +66,9 @@ def arguments() -> argparse.ArgumentParser:
 def prepare(options: argparse.Namespace) -> tuple[Loaded, Task, np.ndarray, Parts]:
     """FMUs, task, vehicles and parts of the ensemble; ends with a message if it is none."""
     autopilot = options.autopilot or autopilot_beside(options.fmu)
-    for file in (options.fmu, autopilot):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
-    if options.flights < 1 or options.stop <= 0.0:
-        sys.exit("error: at least one flight of more than 0 s is expected")
+    command_line.need(options.fmu, autopilot)
+    if options.flights < 1:
+        sys.exit("error: at least one flight is expected")
     try:
         both = system.native(options.fmu, autopilot, LOOP / "manoeuvre.csv")
         commands = container.settings(both)

@@ -22,6 +22,7 @@ try:
     import numpy as np
     from scipy.stats import sobol_indices, uniform
 
+    import command_line
     from batch import margins_part
     from cluster import connect, upload
     from law import BadLaw, Law, autopilot_beside
@@ -70,16 +71,14 @@ def main() -> None:
     parser.add_argument("--output", type=Path, default=Path("target/ensemble"))
     options = parser.parse_args()
     autopilot = options.autopilot or autopilot_beside(options.fmu)
-    for file in (options.fmu, autopilot):
-        if not file.is_file():
-            sys.exit(f"error: {file} does not exist: run `cargo ahv package`")
+    command_line.need(options.fmu, autopilot)
     if options.samples < 2 or options.samples & (options.samples - 1):
         sys.exit(f"error: --samples {options.samples} is no power of two")
     try:
         law = Law.within(autopilot)
     except BadLaw as failure:
         sys.exit(f"error: {failure}")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.make(options.output)
 
     def results(unit: np.ndarray) -> np.ndarray:
         """Results, shape (results, vehicles), of points in the unit cube, by column."""

@@ -13,6 +13,7 @@ try:
     import numpy as np
     from fmpy import extract
 
+    import command_line
     import design
     from air import SIGMA_M_PER_S, gust, turbulence
     from flight import Flight, fly
@@ -102,13 +103,14 @@ def main() -> None:
     """Command line."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=Path("target/ahv.fmu"))
-    parser.add_argument("--stop", type=float, default=120.0, help="duration of the turbulence, s")
+    parser.add_argument(
+        "--stop", type=command_line.duration, default=120.0, help="duration of the turbulence, s"
+    )
     parser.add_argument("--seed", type=int, default=1, help="random seed of the turbulence")
     parser.add_argument("--output", type=Path, default=Path("target/gusts"))
     options = parser.parse_args()
-    if not options.fmu.is_file():
-        sys.exit(f"error: {options.fmu} does not exist: run `cargo ahv package`")
-    options.output.mkdir(parents=True, exist_ok=True)
+    command_line.need(options.fmu)
+    command_line.make(options.output)
     folder = extract(str(options.fmu))
     law, idle = autopilots(folder)
     speed, period = law.level[0], law.period_s

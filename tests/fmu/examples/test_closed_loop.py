@@ -124,24 +124,6 @@ def test_an_autopilot_at_its_stops_does_not_wind_up(package: Package, tmp_path: 
     assert np.abs(rows["vehiclegamma"]).max() < 5.0 * design.DEG
 
 
-@pytest.mark.parametrize(
-    ("settings", "said"),
-    [
-        (["sludge=1"], "there is no parameter sludge"),
-        (["V=1"], "there is no parameter V"),
-        (["aero=2"], "aero is not real: masters do not set it alike"),
-        (["mach0=nan"], "mach0 = nan is refused: a number is expected"),
-        (["mach0=99"], "mach0 = 99 is refused"),
-    ],
-)
-def test_a_case_that_is_none_is_refused_in_a_line(
-    package: Package, tmp_path: Path, settings: list[str], said: str
-) -> None:
-    run = fly(package, tmp_path, *(part for text in settings for part in ("--set", text)))
-    assert run.returncode == 1 and "Traceback" not in run.stderr
-    assert run.stderr.startswith("error: ") and said in run.stderr
-
-
 def test_fmus_that_do_not_fit_are_refused(
     package: Package, autopilot: Path, tmp_path: Path
 ) -> None:

@@ -246,7 +246,7 @@ def test_the_worst_flights_are_replayed_from_their_rows(package: Package, flown:
     [
         (["--flights", "0"], "at least one flight"),
         (["--autopilot", "none.fmu"], "none.fmu does not exist"),
-        (["--autopilot", "law.json"], "law.json: File is not a zip file"),
+        (["--autopilot", "law.json"], "law.json is no FMU"),
         (["--autopilot", "own.fmu"], "own.fmu: K has the shape (2, 13); (2, 14) is needed"),
         (["--scheduler", "nowhere"], "no scheduler answers at nowhere"),
     ],
