@@ -129,7 +129,7 @@ def save_schedule(path: Path, laws: Iterable[Law]) -> None:
 
 @dataclass
 class Autopilot:
-    """The running law. `missed` counts invalid measurements, `saturated` clipped steps."""
+    """The running law. `missed` and `saturated` count samples: one measured is invalid; clipped."""
 
     law: Law
     estimate: np.ndarray = field(init=False)
@@ -143,28 +143,27 @@ class Autopilot:
         self.estimate = np.zeros(len(law.A))
         self.integral, self.command = np.zeros(2), np.zeros(2)
         # Stacked, so that a step needs few products: an ensemble has millions of steps.
-        self._alone = np.hstack([law.A, law.B])
-        self._with = np.hstack([law.A - law.L @ law.C, law.B, law.L])
+        self._filter = np.hstack([law.A - law.L @ law.C, law.B, law.L])
         self._feedback = -np.hstack([law.K, law.Ki])
 
     def step(self, measured: np.ndarray, wanted: np.ndarray) -> np.ndarray:
         """Command for the next communication point.
 
         `measured`: V, gamma, q now; `wanted`: change of V and value of gamma. A measurement that is
-        not finite, or a speed of no flight, is not believed: the model alone carries on.
+        not finite, or a speed of no flight, is not believed: what is expected takes its place.
         """
         law, known = self.law, (self.estimate, self.command)
         speed = law.speed_error_m_per_s
         deviation = measured - law.level
-        if measured[0] > SLOWEST * law.level[0] and isfinite(measured.sum()):
-            predicted = self._with @ np.concatenate((*known, deviation))
-            error = deviation[:2] - wanted
-            error[0] = min(max(error[0], -speed), speed)
-            integral = self.integral + law.period_s * error
-        else:
+        error = deviation[:2] - wanted
+        error[0] = min(max(error[0], -speed), speed)
+        if not (measured[0] > SLOWEST * law.level[0] and isfinite(measured.sum())):
             self.missed += 1
-            predicted = self._alone @ np.concatenate(known)
-            integral = self.integral
+            lost = ~np.isfinite(measured)
+            lost[0] |= not measured[0] > SLOWEST * law.level[0]
+            deviation[lost], error[lost[:2]] = (law.C @ self.estimate)[lost], 0.0
+        predicted = self._filter @ np.concatenate((*known, deviation))
+        integral = self.integral + law.period_s * error
         away = np.concatenate((predicted, integral))
         # V and gamma are the first two states of every design model.
         away[:2] -= wanted

@@ -12,8 +12,8 @@ pub const FEEDBACK_COLUMNS: usize = MOST_STATES + WANTED;
 pub struct Gains {
     /// x' = filter [x; u; y - level] with the estimate x: (A - L C | B | L).
     pub filter: [[f64; MOST_STATES]; FILTER_COLUMNS],
-    /// The same without a measurement: (A | B).
-    pub model: [[f64; MOST_STATES]; MOST_STATES + COMMANDS],
+    /// What x lets expect of y - level: C.
+    pub measurement: [[f64; MEASURED]; MOST_STATES],
     /// u = -feedback [x' - wanted; integrals]: (K | Ki).
     pub feedback: [[f64; COMMANDS]; FEEDBACK_COLUMNS],
 }
@@ -22,7 +22,7 @@ impl Gains {
     /// Moves on to other gains: 0 stays, 1 gets there.
     pub fn move_to(&mut self, other: &Self, part: f64) {
         mix(self.filter.as_flattened_mut(), other.filter.as_flattened(), part);
-        mix(self.model.as_flattened_mut(), other.model.as_flattened(), part);
+        mix(self.measurement.as_flattened_mut(), other.measurement.as_flattened(), part);
         mix(self.feedback.as_flattened_mut(), other.feedback.as_flattened(), part);
     }
 }

@@ -92,35 +92,38 @@ impl Pilot {
         self.fuel_mass_kg_per_m
     }
 
-    /// Whether a measurement is believed: the speed is one of flight, and nothing is NaN or beyond any flight.
-    pub fn believes(&self, measured: &[f64; MEASURED]) -> bool {
-        let slowest = (SLOWEST * self.level[0]).max(0.0);
-        exceeds(measured[0], slowest) && measured.iter().all(|&value| is_moderate(value))
+    /// Which measurements are believed: a speed of flight, and what is neither NaN nor beyond any flight.
+    pub fn believes(&self, measured: &[f64; MEASURED]) -> [bool; MEASURED] {
+        let mut believed = measured.map(is_moderate);
+        believed[0] = exceeds(measured[0], (SLOWEST * self.level[0]).max(0.0));
+        believed
     }
 
     /// One sample: the command for the next one from what is measured now. A filter in predictor form knows
     /// that a command acts a period later.
     ///
-    /// A measurement that is not believed leaves the estimate to the model alone. While a command is at its
-    /// limit the integrals are held.
+    /// What the estimate lets expect takes the place of a measurement that is not believed. While a command is at
+    /// its limit the integrals are held.
     pub fn sample(&self, memory: &mut Memory, measured: &[f64; MEASURED], wanted: [f64; WANTED]) {
         let wanted = wanted.map(bounded);
         let believed = self.believes(measured);
-        // Compilers may compute before they know that they have to: NaN goes nowhere.
-        let measured = if believed { measured } else { &self.level };
-        let deviation: [f64; MEASURED] = std::array::from_fn(|i| measured[i] - self.level[i]);
-        let known = memory.estimate.iter().chain(&memory.command);
-        let mut integrals = memory.integrals;
-        let mut estimate = [0.0; MOST_STATES];
-        if believed {
-            add_products(&mut estimate, &self.gains.filter, known.chain(&deviation));
-            for (i, integral) in integrals.iter_mut().enumerate() {
-                let error = self.limited(i, deviation[i] - wanted[i]);
-                *integral = bounded(*integral + self.designs[0].period_s * error);
-            }
-        } else {
+        let mut deviation = [0.0; MEASURED];
+        if believed != [true; MEASURED] {
             memory.missed += 1.0;
-            add_products(&mut estimate, &self.gains.model, known);
+            add_products(&mut deviation, &self.gains.measurement, &memory.estimate);
+        }
+        for i in 0..MEASURED {
+            if believed[i] {
+                deviation[i] = measured[i] - self.level[i];
+            }
+        }
+        let known = memory.estimate.iter().chain(&memory.command);
+        let mut estimate = [0.0; MOST_STATES];
+        add_products(&mut estimate, &self.gains.filter, known.chain(&deviation));
+        let mut integrals = memory.integrals;
+        for i in (0..WANTED).filter(|&i| believed[i]) {
+            let error = self.limited(i, deviation[i] - wanted[i]);
+            integrals[i] = bounded(integrals[i] + self.designs[0].period_s * error);
         }
         let estimate = estimate.map(bounded);
         let mut away = [0.0; FEEDBACK_COLUMNS];

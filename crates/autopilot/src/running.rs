@@ -84,7 +84,7 @@ impl Running {
         let measured = std::array::from_fn(|i| inputs[i]);
         let manoeuvre = self.commands.at(time_s - self.start_s);
         let wanted = std::array::from_fn(|i| manoeuvre[i] + inputs[MEASURED + 1 + i]);
-        if !self.pilot.believes(&measured) {
+        if self.pilot.believes(&measured) != [true; MEASURED] {
             self.unbelieved_s.get_or_insert(time_s);
         }
         self.pilot.schedule(inputs[FUEL]);
@@ -169,7 +169,7 @@ impl Simulation for Running {
             self.told = true;
             say(format!(
                 "a measurement is not believed, first at t = {time_s} s: V must exceed half of level \
-                 flight's and all must be finite; the estimate goes on without it, and `missed` counts"
+                 flight's and all must be finite; what the model expects takes its place, and `missed` counts"
             ));
         }
     }

@@ -145,7 +145,7 @@ impl Written {
 fn gains(written: &Written, n: usize) -> Gains {
     let mut gains = Gains {
         filter: [[0.0; MOST_STATES]; FILTER_COLUMNS],
-        model: [[0.0; MOST_STATES]; MOST_STATES + COMMANDS],
+        measurement: [[0.0; MEASURED]; MOST_STATES],
         feedback: [[0.0; COMMANDS]; FEEDBACK_COLUMNS],
     };
     for row in 0..n {
@@ -153,15 +153,16 @@ fn gains(written: &Written, n: usize) -> Gains {
             let innovation: f64 =
                 (0..MEASURED).map(|m| written.L[row][m] * written.C[m][column]).sum();
             gains.filter[column][row] = written.A[row][column] - innovation;
-            gains.model[column][row] = written.A[row][column];
         }
         for command in 0..COMMANDS {
             gains.filter[MOST_STATES + command][row] = written.B[row][command];
-            gains.model[MOST_STATES + command][row] = written.B[row][command];
         }
         for measured in 0..MEASURED {
             gains.filter[MOST_STATES + COMMANDS + measured][row] = written.L[row][measured];
         }
+    }
+    for state in 0..n {
+        gains.measurement[state] = std::array::from_fn(|measured| written.C[measured][state]);
     }
     for command in 0..COMMANDS {
         for state in 0..n {
