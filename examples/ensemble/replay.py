@@ -85,9 +85,10 @@ def same(flown: Flown, row: dict[str, object]) -> bool:
 def label(what: str, row: dict[str, object]) -> str:
     """A title of a few lines."""
     margin = row["phase_deg"]
-    state = f"{row['growth_per_s']:+.2f} 1/s" if np.isnan(margin) else f"{margin:.2f} deg"
+    is_stable = not np.isnan(margin)
+    state = f"margin {margin:.2f} deg" if is_stable else f"unstable, {row['growth_per_s']:+.2f} 1/s"
     return (
-        f"{what}: {state}\n{SETS[int(row['aero']) - 1]}, fuel {row['fuel_fraction']:.2f}\n"
+        f"{what}\n{state}\n{SETS[int(row['aero']) - 1]}, fuel {row['fuel_fraction']:.2f}\n"
         f"slosh {row['slosh_frequency']:.1f} rad/s, {100 * row['slosh_damping']:.1f} %"
     )
 

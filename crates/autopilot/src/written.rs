@@ -123,6 +123,9 @@ impl Written {
         }
         for i in 0..COMMANDS {
             let [low, trim, high] = [written.lowest[i], written.trim[i], written.highest[i]];
+            if low > high {
+                return refuse("lowest", format!("has {low}, more than {high}, the highest"));
+            }
             if !(low <= trim && trim <= high) {
                 return refuse("trim", format!("has {trim}; its limits are [{low}, {high}]"));
             }

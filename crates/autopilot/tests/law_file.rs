@@ -53,6 +53,7 @@ fn a_wrong_matrix_or_number_is_refused_with_design_key_and_limit() {
         ("speed_error_m_per_s", json!(0.0), "speed_error_m_per_s = 0 m/s must be positive"),
         ("trim", json!([0.4, 0.3]), "trim has 0.4; its limits are [-0.3, 0.3]"),
         ("lowest", json!([0.3, 0.0]), "trim has 0.2; its limits are [0.3, 0.3]"),
+        ("lowest", json!([0.4, 0.0]), "lowest has 0.4, more than 0.3, the highest"),
     ] {
         let found = refused(key, value);
         assert!(found.starts_with(&format!("law.json: design 2: {said}")), "{found}");
