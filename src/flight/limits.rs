@@ -2,6 +2,7 @@
 
 use super::inputs::{INPUTS, Inputs};
 use crate::vehicle::{Control, MAX_GUST_M_PER_S, Vehicle};
+use std::iter::once;
 
 impl Inputs {
     /// The first time (s) in the next step after `from` and before `to` from which on an input is beyond a limit of
@@ -28,24 +29,10 @@ impl Inputs {
 
     /// The first time after `from` at which an input has passed a limit, or `to`.
     fn passes(&self, i: usize, limit: f64, from: f64, to: f64) -> f64 {
-        let is_above = |t: f64| self.at(t)[i] > limit;
-        let mut low = from;
-        for high in self.turns(i).into_iter().filter(|&turn| turn > from && turn < to).chain([to]) {
-            if is_above(low) != is_above(high) {
-                return bisect(|t| is_above(t) != is_above(low), low, high);
-            }
-            low = high;
-        }
-        to
-    }
-
-    /// Times at which an input turns back, in ascending order; infinite or NaN if it does not.
-    fn turns(&self, i: usize) -> [f64; 2] {
         let [a, b, c] = self.derivatives.map(|order| order[i]);
-        // a + b t + c t^2 / 2 = 0, without cancellation.
-        let q = -(b + libm::sqrt(b * b - 2.0 * a * c).copysign(b));
-        let (one, other) = (2.0 * a / q, q / c);
-        if one < other { [one, other] } else { [other, one] }
+        let bends = changes(|t| b + t * c > 0.0, from, once(to)).chain(once(to));
+        let turns = changes(|t| a + t * (b + t / 2.0 * c) > 0.0, from, bends).chain(once(to));
+        changes(|t| self.at(t)[i] > limit, from, turns).next().unwrap_or(to)
     }
 }
 
@@ -56,19 +43,33 @@ pub(super) fn ranges(vehicle: &Vehicle, base: &Control) -> [[f64; 2]; INPUTS] {
     [delta_e.map(|limit| limit - base[0]), phi.map(|limit| limit - base[1]), gust, gust]
 }
 
+/// When a condition changes that changes once at most before each of the `ends` and after the one before, the first time
+/// after `from`. By bisection: no quotient or root of any derivatives is a floating-point exception.
+fn changes(
+    is: impl Fn(f64) -> bool,
+    from: f64,
+    ends: impl Iterator<Item = f64>,
+) -> impl Iterator<Item = f64> {
+    let mut low = from;
+    ends.filter_map(move |high| {
+        let start = std::mem::replace(&mut low, high);
+        let before = is(start);
+        (is(high) != before).then(|| bisect(|t| is(t) != before, start, high))
+    })
+}
+
 /// The first number in `low` to `high` from which `holds` is true; it is at `high` and not at `low`.
 fn bisect(holds: impl Fn(f64) -> bool, mut low: f64, mut high: f64) -> f64 {
-    loop {
+    let rounding = f64::EPSILON * high;
+    while high - low > rounding {
         let middle = low + 0.5 * (high - low);
-        if middle <= low || middle >= high {
-            return high;
-        }
         if holds(middle) {
             high = middle;
         } else {
             low = middle;
         }
     }
+    high
 }
 
 #[cfg(test)]
