@@ -18,7 +18,9 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
             Event::Start(Tag::Image { dest_url, .. }) => {
                 image = true;
                 let drawing = svg(&dest_url).unwrap_or_default();
-                events.push(Event::InlineHtml(format!("<span class=\"figure\">{drawing}").into()));
+                events.push(Event::InlineHtml(
+                    format!("<span class=\"figure\" tabindex=\"0\">{drawing}").into(),
+                ));
             }
             // The alternative text of a drawing repeats the title above it.
             Event::End(TagEnd::Image) => {
