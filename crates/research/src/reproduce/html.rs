@@ -63,8 +63,9 @@ pub fn render(markdown: &str, title: &str, svg: impl Fn(&str) -> Option<String>)
     let body = body
         .replace("<table>", "<div class=\"table\" tabindex=\"0\"><table>")
         .replace("</table>", "</table></div>")
-        // A corner without words is no heading.
-        .replace("<th></th>", "<td></td>");
+        // A cell without words is no heading.
+        .replace("<th style=\"text-align: left\"></th>", "<td></td>")
+        .replace("<th style=\"text-align: right\"></th>", "<td></td>");
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
