@@ -177,10 +177,14 @@ impl Flight {
         };
         let length = end - start;
         // Counted from the start, so that a late one costs no digits, and legs take the steps of the whole.
-        let (ranges, mut from) = (limits::ranges(vehicle, base), before);
+        let mut from = before;
         let outcome = loop {
             // No method expects the kink of an input that meets a limit.
-            let to = if moving { inputs.next_limit(&ranges, from, length) } else { length };
+            let to = if moving {
+                inputs.next_limit(&limits::ranges(vehicle, base), from, length)
+            } else {
+                length
+            };
             let (integrator, slope) = (&mut self.integrator, &mut self.slope);
             let outcome =
                 integrator.run(&mut **method, &controlled, state, [from, to], slope, once);
