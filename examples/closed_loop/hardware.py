@@ -13,13 +13,12 @@ from pathlib import Path
 try:
     import numpy as np
     from fmpy import extract
-    from scipy.linalg import expm
 
     import command_line
     import design
     from law import PERIOD_S, BadLaw, Law, part_beside
     from margins import cell, margins
-    from models import MEASURED, SLOSH, STATES, LinearModel, Plant, sampled
+    from models import MEASURED, SLOSH, STATES, LinearModel, Plant, held, sampled
     from system import COMMANDS, Component
 except ModuleNotFoundError as missing:
     sys.exit(
@@ -60,17 +59,16 @@ def with_hardware(
     plant, pairs = sampled(full, STATES[SLOSH], period_s), []
     for command in COMMANDS:
         rate, damping = (actuators[command][name] for name in ("bandwidth", "damping"))
-        moving = np.zeros((3, 3))
-        moving[:2] = [[0.0, 1.0, 0.0], [-(rate**2), -2.0 * damping * rate, rate**2]]
-        pairs.append(expm(moving * period_s)[:2])
+        moving = np.array([[0.0, 1.0], [-(rate**2), -2.0 * damping * rate]])
+        pairs.append(held(moving, np.array([[0.0], [rate**2]]), period_s))
     n = len(plant.A)
     first, readings = n + 2 * len(pairs), len(MEASURED)
     a, b = np.zeros((first + readings,) * 2), np.zeros((first + readings, len(pairs)))
     a[:n, :n], a[first:, :n] = plant.A, plant.C
-    for i, pair in enumerate(pairs):
+    for i, (moved, pushed) in enumerate(pairs):
         own = slice(n + 2 * i, n + 2 * i + 2)
         a[:n, own.start] = plant.B[:, i]
-        a[own, own], b[own, i] = pair[:, :2], pair[:, 2]
+        a[own, own], b[own, [i]] = moved, pushed
     return Plant(a, b, np.hstack([np.zeros((readings, first)), np.eye(readings)]))
 
 

@@ -9,7 +9,6 @@ import json
 import zipfile
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field, replace
-from math import isfinite
 from pathlib import Path
 from typing import Self
 
@@ -157,10 +156,10 @@ class Autopilot:
         deviation = measured - law.level
         error = deviation[:2] - wanted
         error[0] = min(max(error[0], -speed), speed)
-        if not (measured[0] > SLOWEST * law.level[0] and isfinite(measured.sum())):
+        lost = ~np.isfinite(measured)
+        lost[0] |= not measured[0] > SLOWEST * law.level[0]
+        if lost.any():
             self.missed += 1
-            lost = ~np.isfinite(measured)
-            lost[0] |= not measured[0] > SLOWEST * law.level[0]
             deviation[lost], error[lost[:2]] = (law.C @ self.estimate)[lost], 0.0
         predicted = self._filter @ np.concatenate((*known, deviation))
         integral = self.integral + law.period_s * error

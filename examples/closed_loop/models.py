@@ -86,8 +86,14 @@ def rigid_model(folder: str) -> LinearModel:
 def sampled(full: LinearModel, states: Sequence[str], period_s: float = PERIOD_S) -> Plant:
     """The model with these states only, discretised with held inputs."""
     kept = [full.states.index(name) for name in states]
-    n, inputs = len(kept), full.B.shape[1]
+    a, b = held(full.A[np.ix_(kept, kept)], full.B[kept], period_s)
+    return Plant(a, b, full.C[:, kept])
+
+
+def held(a: np.ndarray, b: np.ndarray, period_s: float) -> tuple[np.ndarray, np.ndarray]:
+    """A and B over a period with held inputs, of the continuous ones: shapes (n, n) and (n, m)."""
+    n, inputs = b.shape
     whole = np.zeros((n + inputs, n + inputs))
-    whole[:n] = np.hstack([full.A[np.ix_(kept, kept)], full.B[kept]])
-    held = expm(whole * period_s)
-    return Plant(held[:n, :n], held[:n, n:], full.C[:, kept])
+    whole[:n] = np.hstack([a, b])
+    moved = expm(whole * period_s)
+    return moved[:n, :n], moved[:n, n:]
